@@ -1,0 +1,93 @@
+// Volume-averaged Navier-Stokes equations (model A) on a staggered grid with grains as a porous,
+// dragging phase and SDF bodies as walls. The algorithm and its sources: cfd/gas_solver.cpp.
+//
+// Protocol: construct; then for each step set grains() (skip it when nothing moved) and call
+// advance(). All calls are collective over the decomposition's communicator.
+#pragma once
+
+#include <memory>
+
+#include "cfd/field.hpp"
+#include "cfd/gas_case.hpp"
+#include "cfd/grid.hpp"
+#include "cfd/pressure_solver.hpp"
+#include "cfd/wall_geometry.hpp"
+
+namespace gasgrain::cfd {
+
+// What the grains do to the gas, in owned cells, per open volume (1 - alpha) V of the cell. The
+// solver fills ghosts itself.
+struct GrainPhase {
+  Field void_fraction;            // eps at the end of the coming step, in (0, 1]
+  Field momentum_exchange;        // B, kg m^-3 s^-1: sum over grains of weight * coefficient / volume
+  VectorField exchange_momentum;  // B v, kg m^-2 s^-2: the same with the grains' velocities (cells)
+};
+
+// Momentum that entered the gas during the last advance(), by cause; N s, summed over all ranks.
+// stored = pressure + gravity + convection + viscous + drag + body, up to round-off.
+// A face's control volume is the sum of its cells' shares (WallGeometry), so that the pressure row
+// is the integral of -grad p over the gas AND the grains' volume minus `pressure_on_grains`.
+struct MomentumBudget {
+  Vec3 stored = Vec3::Zero();              // change of sum eps rho u V
+  Vec3 pressure = Vec3::Zero();            // -eps grad p
+  Vec3 pressure_on_grains = Vec3::Zero();  // -(1-eps) grad p: what the grains receive
+  Vec3 gravity = Vec3::Zero();             // eps rho g
+  Vec3 convection = Vec3::Zero();          // boundary flux and remainder of the advective form
+  Vec3 viscous = Vec3::Zero();             // shear of sides; interior terms cancel
+  Vec3 drag = Vec3::Zero();                // -(what the grains receive by drag)
+  Vec3 body = Vec3::Zero();                // immersed bodies
+};
+
+struct StepReport {
+  PressureReport pressure;             // iterations, residual
+  double divergence = 0.0;             // largest |continuity residual| * dt, relative to eps (-)
+  double removed_mean = 0.0;           // of the pressure right-hand side, relative to its 1-norm;
+                                       // 0 when the system is not singular
+  double courant_number = 0.0;         // largest |u| dt / dx after the step
+  MomentumBudget momentum;
+};
+
+class GasSolver {
+ public:
+  GasSolver(const GasCase& gas_case, MPI_Comm communicator);
+  ~GasSolver();
+
+  const GasCase& gas_case() const;
+  const Decomposition& decomposition() const;
+  const WallGeometry& walls() const;
+
+  // To be set before advance(); persists between steps.
+  GrainPhase& grains();
+  // Makes the void fraction of grains() also the one at the start of the coming step: at the very
+  // first exchange, when grains appear without displacing gas.
+  void accept_void_fraction_as_old();
+
+  // One step of dt [s]. Throws UserError when the pressure solve fails or the velocity is no longer
+  // finite; the message says the time, the largest velocity and the step.
+  StepReport advance(double dt);
+
+  // Largest step that the viscous and Courant limits allow now, s.
+  double largest_stable_step() const;
+  double time() const;                  // s
+
+  const VectorField& velocity() const;  // u on faces, m/s (interstitial)
+  const Field& pressure() const;        // p in cells, Pa
+  const Field& void_fraction() const;   // eps in cells, ghosts filled
+
+  // Gas as the grains of a cell see it: sum of lower_share and upper_share times the face value.
+  // The transpose of the way B, B v and the solid volume reach the faces, so that a grain and the
+  // gas exchange opposite forces. In directions without a free face: the wall's velocity and 0.
+  void sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const;
+
+  // Flux-weighted mean pressure over the open area of a side of the grid, Pa, extrapolated from the
+  // control volumes of the faces next to it so that the momentum balance closes.
+  double side_pressure(int direction, int side) const;
+  double side_open_area(int direction, int side) const;  // m^2
+  double side_flux(int direction, int side) const;       // m^3/s of gas, positive along +direction
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gasgrain::cfd

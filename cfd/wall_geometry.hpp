@@ -1,0 +1,35 @@
+// What the solid bodies leave open for the gas: cell and face fractions and distances.
+#pragma once
+
+#include <vector>
+
+#include "cfd/boundary.hpp"
+#include "cfd/field.hpp"
+#include "cfd/grid.hpp"
+#include "coupling/shared/body.hpp"
+
+namespace gasgrain::cfd {
+
+// All fields have their ghosts filled. Outside non-periodic sides of the grid everything counts as
+// solid: wall_fraction = 1 in ghost cells, except that the faces of inlet and outlet sides are open.
+struct WallGeometry {
+  bool has_bodies = false;   // false: nothing but the sides of the grid
+  Field wall_fraction;       // alpha, cells: share of the cell's volume inside a body, in [0, 1]
+  VectorField open_area;     // a, faces: open share of the face's area, in [0, 1]; 0 on closed faces
+  VectorField distance;      // phi at face centres, m; > 0 in the gas
+  std::array<VectorField, 3> normal;   // grad phi at the face centres of direction [d]
+  VectorField wall_velocity; // m/s, component d of the nearest body's surface velocity at faces of d
+
+  // Cell centre: how the cell's grains share the two faces of direction d. A face takes part when
+  // gas can move through it freely: open and without prescribed flux. Lower and upper share are
+  // 1/2 each, or 0 and 1 when one face does not take part, or 0 and 0 when neither does.
+  std::array<Field, 3> lower_share;
+  std::array<Field, 3> upper_share;
+};
+
+// Samples the bodies that act on the gas. Throws UserError when a body does not reach into the grid
+// (it acts on the gas and is nowhere solid in it) or leaves no open cell.
+WallGeometry make_wall_geometry(const Decomposition& decomposition, const Boundaries& boundaries,
+                                const std::vector<Body>& bodies);
+
+}  // namespace gasgrain::cfd

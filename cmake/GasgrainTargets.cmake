@@ -1,0 +1,29 @@
+# gasgrain_library(NAME sources...) and gasgrain_executable(NAME sources...): our targets, all with
+# the same language level, warnings and floating-point rules.
+#
+# -fno-math-errno lets the compiler vectorize sqrt; -ffp-contract=fast allows fused multiply-add.
+# Neither reorders sums, so the same build gives the same bits in every run.
+
+function(_gasgrain_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
+    -fno-math-errno -ffp-contract=fast)
+  if(GASGRAIN_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(GASGRAIN_NATIVE)
+    target_compile_options(${target} PUBLIC -march=native)
+  endif()
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+endfunction()
+
+function(gasgrain_library name)
+  add_library(${name} STATIC ${ARGN})
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  _gasgrain_options(${name})
+endfunction()
+
+function(gasgrain_executable name)
+  add_executable(${name} ${ARGN})
+  _gasgrain_options(${name})
+endfunction()

@@ -1,0 +1,31 @@
+// A named solid body: its shape, what it acts on and the velocity of its surface.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/shared/config_table.hpp"
+#include "coupling/shared/signed_distance.hpp"
+
+namespace gasgrain {
+
+struct Body {
+  std::string name;
+  Shape shape;
+  bool acts_on_gas = true;
+  bool acts_on_grains = true;
+  Vec3 surface_velocity = Vec3::Zero();  // m/s; a wall that slides in its own plane (conveyor)
+};
+
+// Loads the SDF file named by `file = "x.h5"` of a body; supplied by coupling/files, so that this
+// leaf library stays free of HDF5.
+using ShapeFileLoader = Shape (*)(const std::string& path);
+
+// Reads all [[body]] tables of a case file (keys: docs/case_file.md). Throws UserError: no or
+// duplicate name, no or several shapes, non-positive sizes, unknown keys.
+std::vector<Body> read_bodies(const ConfigTable& case_file, ShapeFileLoader load_file);
+
+// The body of that name; throws UserError that lists the names there are.
+const Body& find_body(const std::vector<Body>& bodies, const std::string& name);
+
+}  // namespace gasgrain

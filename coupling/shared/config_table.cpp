@@ -1,0 +1,277 @@
+#include "coupling/shared/config_table.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <toml++/toml.h>
+
+#include "coupling/shared/error.hpp"
+
+namespace gasgrain {
+
+bool Range::contains(double value) const {
+  const bool above = lower_open ? value > lower : value >= lower;
+  const bool below = upper_open ? value < upper : value <= upper;
+  return above && below && std::isfinite(value);
+}
+
+std::string Range::text() const {
+  std::ostringstream out;
+  out << (lower_open || std::isinf(lower) ? "(" : "[") << lower << ", " << upper
+      << (upper_open || std::isinf(upper) ? ")" : "]");
+  return out.str();
+}
+
+struct ConfigTable::Document {
+  std::string file;
+  toml::table root;
+};
+
+struct ConfigTable::Node {
+  std::shared_ptr<const Document> document;
+  const toml::table* table = nullptr;  // null: an absent table
+  std::string path;                    // "grid." or ""
+  std::set<std::string> known;         // keys that were asked for
+
+  const toml::node* find(const std::string& key) {
+    known.insert(key);
+    return table ? table->get(key) : nullptr;
+  }
+};
+
+ConfigTable::ConfigTable(std::shared_ptr<Node> node) : node_(std::move(node)) {}
+ConfigTable::ConfigTable(const ConfigTable&) = default;
+ConfigTable& ConfigTable::operator=(const ConfigTable&) = default;
+ConfigTable::ConfigTable(ConfigTable&&) noexcept = default;
+ConfigTable& ConfigTable::operator=(ConfigTable&&) noexcept = default;
+ConfigTable::~ConfigTable() = default;
+
+ConfigTable ConfigTable::parse(const std::string& text, const std::string& file) {
+  auto document = std::make_shared<Document>();
+  document->file = file;
+  try {
+    document->root = toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    std::ostringstream message;
+    message << file << ":" << error.source().begin.line << ": not valid TOML: "
+            << error.description();
+    throw UserError(message.str());
+  }
+  auto node = std::make_shared<Node>();
+  node->table = &document->root;
+  node->document = std::move(document);
+  return ConfigTable(node);
+}
+
+ConfigTable ConfigTable::parse_file(const std::string& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  if (in) text << in.rdbuf();
+  if (!in || std::filesystem::is_directory(file)) {
+    throw UserError("cannot read case file '" + file +
+                    "'; check the path (relative to the directory the program was started in)");
+  }
+  return parse(text.str(), file);
+}
+
+const std::string& ConfigTable::file() const { return node_->document->file; }
+
+std::string ConfigTable::resolve_path(const std::string& path) const {
+  const std::filesystem::path given(path);
+  if (given.is_absolute()) return path;
+  return (std::filesystem::path(file()).parent_path() / given).string();
+}
+
+std::string ConfigTable::where(const std::string& key) const {
+  std::ostringstream out;
+  out << file();
+  const toml::node* value = node_->table ? node_->table->get(key) : nullptr;
+  const auto line = value          ? value->source().begin.line
+                    : node_->table ? node_->table->source().begin.line
+                                   : 0;
+  if (line > 0) out << ":" << line;
+  out << ": " << node_->path << key;
+  return out.str();
+}
+
+void ConfigTable::fail(const std::string& key, const std::string& message) const {
+  throw UserError(where(key) + ": " + message);
+}
+
+bool ConfigTable::has(const std::string& key) const { return node_->find(key) != nullptr; }
+
+double ConfigTable::number(const std::string& key, const Range& allowed) const {
+  const toml::node* value = node_->find(key);
+  if (!value) fail(key, "is missing; give a number in " + allowed.text());
+  const auto number = value->value<double>();
+  if (!number || value->is_boolean()) fail(key, "must be a number in " + allowed.text());
+  if (!allowed.contains(*number)) {
+    std::ostringstream message;
+    message << "is " << *number << ", but must be in " << allowed.text();
+    fail(key, message.str());
+  }
+  return *number;
+}
+
+double ConfigTable::number_or(const std::string& key, double otherwise,
+                              const Range& allowed) const {
+  return has(key) ? number(key, allowed) : otherwise;
+}
+
+long ConfigTable::integer(const std::string& key, const Range& allowed) const {
+  const toml::node* value = node_->find(key);
+  if (!value) fail(key, "is missing; give an integer in " + allowed.text());
+  if (!value->is_integer()) fail(key, "must be an integer in " + allowed.text());
+  return std::lround(number(key, allowed));
+}
+
+long ConfigTable::integer_or(const std::string& key, long otherwise, const Range& allowed) const {
+  return has(key) ? integer(key, allowed) : otherwise;
+}
+
+bool ConfigTable::flag_or(const std::string& key, bool otherwise) const {
+  const toml::node* value = node_->find(key);
+  if (!value) return otherwise;
+  if (!value->is_boolean()) fail(key, "must be true or false");
+  return *value->value<bool>();
+}
+
+std::string ConfigTable::text(const std::string& key) const {
+  const toml::node* value = node_->find(key);
+  if (!value) fail(key, "is missing; give a string");
+  if (!value->is_string()) fail(key, "must be a string in quotes");
+  return *value->value<std::string>();
+}
+
+std::string ConfigTable::text_or(const std::string& key, const std::string& otherwise) const {
+  return has(key) ? text(key) : otherwise;
+}
+
+std::string ConfigTable::choice(const std::string& key,
+                                const std::vector<std::string>& allowed) const {
+  std::string list;
+  for (const std::string& name : allowed) list += (list.empty() ? "" : ", ") + name;
+  if (!has(key)) fail(key, "is missing; give one of: " + list);
+  const std::string value = text(key);
+  for (const std::string& name : allowed) {
+    if (name == value) return value;
+  }
+  const std::string near = nearest_name(value, allowed.data(), allowed.data() + allowed.size());
+  fail(key, "is '" + value + "', but must be one of: " + list +
+                (near.empty() ? "" : "; did you mean '" + near + "'?"));
+}
+
+std::string ConfigTable::choice_or(const std::string& key, const std::string& otherwise,
+                                   const std::vector<std::string>& allowed) const {
+  return has(key) ? choice(key, allowed) : otherwise;
+}
+
+std::vector<double> ConfigTable::numbers(const std::string& key) const {
+  const toml::node* value = node_->find(key);
+  if (!value) fail(key, "is missing; give a list of numbers, such as [0, 0, 1]");
+  const toml::array* array = value->as_array();
+  if (!array) fail(key, "must be a list of numbers, such as [0, 0, 1]");
+  std::vector<double> result;
+  for (const toml::node& item : *array) {
+    const auto number = item.value<double>();
+    if (!number || item.is_boolean() || !std::isfinite(*number)) {
+      fail(key, "must hold finite numbers only");
+    }
+    result.push_back(*number);
+  }
+  return result;
+}
+
+std::vector<std::string> ConfigTable::texts(const std::string& key) const {
+  const toml::node* value = node_->find(key);
+  if (!value) fail(key, "is missing; give a list of strings");
+  const toml::array* array = value->as_array();
+  if (!array) fail(key, "must be a list of strings");
+  std::vector<std::string> result;
+  for (const toml::node& item : *array) {
+    if (!item.is_string()) fail(key, "must hold strings only");
+    result.push_back(*item.value<std::string>());
+  }
+  return result;
+}
+
+Vec3 ConfigTable::vector(const std::string& key) const {
+  const std::vector<double> values = numbers(key);
+  if (values.size() != 3) {
+    fail(key, "has " + std::to_string(values.size()) + " components, but must have 3");
+  }
+  return {values[0], values[1], values[2]};
+}
+
+Vec3 ConfigTable::vector_or(const std::string& key, const Vec3& otherwise) const {
+  return has(key) ? vector(key) : otherwise;
+}
+
+std::array<int, 3> ConfigTable::integers3(const std::string& key, const Range& allowed) const {
+  const Vec3 values = vector(key);
+  std::array<int, 3> result{};
+  for (int d = 0; d < 3; ++d) {
+    if (values[d] != std::round(values[d]) || !allowed.contains(values[d]) ||
+        std::abs(values[d]) > std::numeric_limits<int>::max()) {
+      fail(key, "must hold three integers in " + allowed.text());
+    }
+    result[d] = static_cast<int>(values[d]);
+  }
+  return result;
+}
+
+ConfigTable ConfigTable::table_or_empty(const std::string& key) const {
+  const toml::node* value = node_->find(key);
+  if (value && !value->is_table()) fail(key, "must be a table: [" + node_->path + key + "]");
+  auto node = std::make_shared<Node>();
+  node->document = node_->document;
+  node->table = value ? value->as_table() : nullptr;
+  node->path = node_->path + key + ".";
+  return ConfigTable(node);
+}
+
+ConfigTable ConfigTable::table(const std::string& key) const {
+  if (!has(key)) fail(key, "is missing; add a table [" + node_->path + key + "]");
+  return table_or_empty(key);
+}
+
+std::vector<ConfigTable> ConfigTable::tables(const std::string& key) const {
+  const toml::node* value = node_->find(key);
+  if (!value) return {};
+  const toml::array* array = value->as_array();
+  if (!array) fail(key, "must be a list of tables: [[" + node_->path + key + "]]");
+  std::vector<ConfigTable> result;
+  for (const toml::node& item : *array) {
+    if (!item.is_table()) fail(key, "must be a list of tables: [[" + node_->path + key + "]]");
+    auto node = std::make_shared<Node>();
+    node->document = node_->document;
+    node->table = item.as_table();
+    node->path = node_->path + key + "[" + std::to_string(result.size() + 1) + "].";
+    result.push_back(ConfigTable(node));
+  }
+  return result;
+}
+
+std::vector<std::string> ConfigTable::keys() const {
+  std::vector<std::string> result;
+  if (node_->table) {
+    for (const auto& [key, value] : *node_->table) result.emplace_back(key.str());
+  }
+  return result;
+}
+
+void ConfigTable::reject_unknown_keys() const {
+  for (const std::string& key : keys()) {
+    if (node_->known.count(key)) continue;
+    const std::vector<std::string> known(node_->known.begin(), node_->known.end());
+    const std::string near = nearest_name(key, known.data(), known.data() + known.size());
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+    fail(key, near.empty() ? "is not a known key; known here: " + list
+                           : "is not a known key; did you mean '" + near + "'?");
+  }
+}
+
+}  // namespace gasgrain

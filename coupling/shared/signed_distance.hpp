@@ -1,0 +1,31 @@
+// Signed distance of a solid body: the one geometry interface for grains and gas.
+//
+// Sign (eq 17): distance > 0 outside the body, where grains and gas are; < 0 inside the solid.
+// A vessel is the complement of its interior.
+#pragma once
+
+#include <memory>
+
+#include "coupling/shared/vec3.hpp"
+
+namespace gasgrain {
+
+struct DistanceSample {
+  double distance;  // m
+  Vec3 gradient;    // exact derivative of `distance` as returned, points into the flow domain
+};
+
+class SignedDistance {
+ public:
+  virtual ~SignedDistance() = default;
+  // Signed distance at x [m]. A union or intersection may underestimate |distance| away from the
+  // surface, never overestimate it beyond the distance of its nearest part.
+  virtual double distance(const Vec3& x) const = 0;
+  // Distance and its exact gradient, so that the potential 1/2 k (r - phi)^2 gives a conservative
+  // force (eq 18-20).
+  virtual DistanceSample sample(const Vec3& x) const = 0;
+};
+
+using Shape = std::shared_ptr<const SignedDistance>;
+
+}  // namespace gasgrain
