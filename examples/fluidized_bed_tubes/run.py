@@ -1,0 +1,95 @@
+"""Fluidized bed with four inserted tubes (Mori, Wu, Sakai 2019, case 1)"""
+
+import argparse
+import math
+import os
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+
+import common  # noqa: E402
+import plot  # noqa: E402
+
+ORIGINAL_COUNT = 250_000 * 5**3  # the paper: 250 000 grains of ratio 5
+ORIGINAL_RADIUS = 50e-6  # m
+DENSITY = 2500.0  # kg/m^3
+RESTITUTION = 0.9
+
+
+def contact_time(spring):
+    """Duration of a contact of two original particles, s (half period of the damped spring)."""
+    mass = DENSITY * 4 / 3 * math.pi * ORIGINAL_RADIUS**3
+    damping_ratio = -math.log(RESTITUTION) / math.hypot(math.pi, math.log(RESTITUTION))
+    return math.pi * math.sqrt(mass / 2 / spring) / math.sqrt(1 - damping_ratio**2)
+
+
+def options():
+    parser = argparse.ArgumentParser(prog="examples/run fluidized_bed_tubes", description=__doc__)
+    parser.add_argument("--grain", type=float, default=10, metavar="L",
+                        help="coarse-grain ratio l; the paper takes 5 (default %(default)g)")
+    parser.add_argument("--velocity", type=float, default=0.2, metavar="U",
+                        help="superficial gas velocity, m/s; the paper takes 0.2 and 0.3 (default %(default)g)")
+    parser.add_argument("--time", type=float, default=0.9, metavar="T",
+                        help="simulated time with gas, s; means are taken over the last 60 %% (default %(default)g)")
+    parser.add_argument("--spring", type=float, default=0.5, metavar="K",
+                        help="spring constant of the original particle, N/m; the paper takes 50 (default %(default)g)")
+    parser.add_argument("--gas-step", type=float, default=1e-4, metavar="S",
+                        help="largest gas step, s (default %(default)g)")
+    parser.add_argument("--ranks", type=int, default=os.cpu_count(), metavar="N",
+                        help="MPI ranks (default: all cores, here %(default)s)")
+    parser.add_argument("--out", default=str(common.ROOT / "out" / "fluidized_bed_tubes"), metavar="DIR",
+                        help="directory for the results (default out/fluidized_bed_tubes)")
+    chosen = parser.parse_args()
+    for name, lowest in (("grain", 1), ("velocity", 0), ("ranks", 1)):
+        if not getattr(chosen, name) >= lowest:
+            parser.error(f"--{name} is {getattr(chosen, name):g}, but must be at least {lowest}")
+    for name in ("time", "spring", "gas_step"):
+        if not getattr(chosen, name) > 0:
+            parser.error(f"--{name.replace('_', '-')} is {getattr(chosen, name):g}, but must be positive")
+    if chosen.grain > 25:
+        parser.error(f"--grain is {chosen.grain:g}: grains above 2.5 mm (l = 25) do not fit between tubes and walls")
+    return chosen
+
+
+def main():
+    chosen = options()
+    out = pathlib.Path(chosen.out).resolve()
+    out.mkdir(parents=True, exist_ok=True)
+    for old in ("summary.json", "result.png"):
+        (out / old).unlink(missing_ok=True)
+
+    duration = contact_time(chosen.spring)
+    step = float(f"{duration / 8:.3g}")
+    count = round(ORIGINAL_COUNT / chosen.grain**3)
+    start = 0.4 * chosen.time
+    print("Fluidized bed with four tubes, 50 x 10 x 200 mm, gas cells of 1.25 mm")
+    print(f"  grains         {count} of {2e3 * ORIGINAL_RADIUS * chosen.grain:g} mm "
+          f"(l = {chosen.grain:g}) for {ORIGINAL_COUNT / 1e6:g} million of 0.1 mm")
+    print(f"  gas velocity   {chosen.velocity:g} m/s, gas step at most {chosen.gas_step:g} s")
+    print(f"  spring         {chosen.spring:g} N/m (paper: 50), contact time {duration:.3g} s, "
+          f"step {step:g} s = contact time / {duration / step:.1f}")
+    print(f"  time           {chosen.time:g} s with gas, averaged from {start:g} to {chosen.time:g} s")
+    print(f"  ranks          {chosen.ranks}")
+    print(f"  results        {out}\n")
+
+    case = (HERE / "gas.toml").read_text()
+    for key, value in (("superficial_velocity", chosen.velocity), ("gas_step", chosen.gas_step),
+                       ("average_from", start)):
+        case = common.set_key(case, key, value)
+    (out / "gas.toml").write_text(case)
+    (out / "bed.in").write_text((HERE / "bed.in").read_text())
+
+    common.run_gasgrain(out, "bed.in", chosen.ranks, {
+        "l": chosen.grain, "count": count, "k": chosen.spring, "dt": step, "time": chosen.time,
+        "case": "gas.toml", "out": ".",
+    })
+    plot.draw(out, out / "result.png", start)
+    print(f"\npicture   {out / 'result.png'}")
+    print(f"fields    {out}/*.xdmf (open in ParaView)")
+    print(f"summary   {out / 'summary.json'}")
+
+
+if __name__ == "__main__":
+    main()
