@@ -4,6 +4,7 @@
 // A vessel is the complement of its interior.
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "coupling/shared/vec3.hpp"
@@ -24,6 +25,9 @@ class SignedDistance {
   // Distance and its exact gradient, so that the potential 1/2 k (r - phi)^2 gives a conservative
   // force (eq 18-20).
   virtual DistanceSample sample(const Vec3& x) const = 0;
+  // Below this |distance| the field is resolved; a sampled field stores only a band around the
+  // surface and beyond it returns a bound with gradient zero. A grain radius must not exceed it. m.
+  virtual double resolved_range() const { return std::numeric_limits<double>::infinity(); }
 };
 
 using Shape = std::shared_ptr<const SignedDistance>;

@@ -1,0 +1,94 @@
+// Booleans of signed distances: union = min, intersection = max, complement = -phi.
+//
+// The value is that of the part that decides, and so is the gradient: it is the exact derivative of
+// the value wherever that exists. Exact surface always; exact distance outside a union and inside
+// an intersection; elsewhere |phi| is a lower bound (Quilez, "distance functions"): near a concave
+// edge of the solid's outside the nearest surface of one part may lie within another.
+#include "coupling/shared/boolean_shapes.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "coupling/shared/error.hpp"
+#include "coupling/shared/measured_shape.hpp"
+
+namespace gasgrain {
+
+namespace {
+
+struct Union {
+  std::vector<Shape> parts;
+};
+struct Intersection {
+  std::vector<Shape> parts;
+};
+struct Complement {
+  Shape shape;
+};
+
+DistanceSample measure(const Union& solid, const Vec3& x) {
+  DistanceSample result = solid.parts.front()->sample(x);
+  for (std::size_t i = 1; i < solid.parts.size(); ++i) {
+    const DistanceSample part = solid.parts[i]->sample(x);
+    if (part.distance < result.distance) result = part;
+  }
+  return result;
+}
+
+DistanceSample measure(const Intersection& solid, const Vec3& x) {
+  DistanceSample result = solid.parts.front()->sample(x);
+  for (std::size_t i = 1; i < solid.parts.size(); ++i) {
+    const DistanceSample part = solid.parts[i]->sample(x);
+    if (part.distance > result.distance) result = part;
+  }
+  return result;
+}
+
+DistanceSample measure(const Complement& solid, const Vec3& x) {
+  const DistanceSample inside = solid.shape->sample(x);
+  return {-inside.distance, -inside.gradient};
+}
+
+double resolved_range(const std::vector<Shape>& parts) {
+  double range = parts.front()->resolved_range();
+  for (const Shape& part : parts) range = std::min(range, part->resolved_range());
+  return range;
+}
+double resolved_range(const Union& solid) {
+  return resolved_range(solid.parts);
+}
+double resolved_range(const Intersection& solid) {
+  return resolved_range(solid.parts);
+}
+double resolved_range(const Complement& solid) {
+  return solid.shape->resolved_range();
+}
+
+template <class Solid>
+class BooleanShape final : public MeasuredShape<Solid> {
+ public:
+  using MeasuredShape<Solid>::MeasuredShape;
+  double resolved_range() const override { return gasgrain::resolved_range(this->solid_); }
+};
+
+}  // namespace
+
+Shape make_union(std::vector<Shape> parts) {
+  GASGRAIN_ASSERT(!parts.empty());
+  return std::make_shared<BooleanShape<Union>>(Union{std::move(parts)});
+}
+
+Shape make_intersection(std::vector<Shape> parts) {
+  GASGRAIN_ASSERT(!parts.empty());
+  return std::make_shared<BooleanShape<Intersection>>(Intersection{std::move(parts)});
+}
+
+Shape make_difference(Shape base, Shape removed) {
+  return make_intersection({std::move(base), make_complement(std::move(removed))});
+}
+
+Shape make_complement(Shape shape) {
+  return std::make_shared<BooleanShape<Complement>>(Complement{std::move(shape)});
+}
+
+}  // namespace gasgrain

@@ -1,0 +1,45 @@
+// Plane, box, cylinder and sphere as solids: exact signed distance with its exact gradient.
+#pragma once
+
+#include "coupling/shared/signed_distance.hpp"
+
+namespace gasgrain {
+
+// The half space behind a plane is solid; `normal` is a unit vector into the gas.
+struct Plane {
+  Vec3 point;
+  Vec3 normal;
+};
+
+struct Box {
+  Vec3 center;
+  Vec3 half_size;                // m, > 0
+  Mat3 axes = Mat3::Identity();  // columns: unit vectors along the edges
+};
+
+// half_length = infinity: without ends.
+struct Cylinder {
+  Vec3 center;
+  Vec3 axis;  // unit vector
+  double radius;
+  double half_length;
+};
+
+struct Sphere {
+  Vec3 center;
+  double radius;
+};
+
+// Distance and gradient at x. Where the nearest surface point is not unique (a sphere's centre, a
+// cylinder's axis, the diagonal planes inside a box) the gradient is that of one of them.
+DistanceSample measure(const Plane& plane, const Vec3& x);
+DistanceSample measure(const Box& box, const Vec3& x);
+DistanceSample measure(const Cylinder& cylinder, const Vec3& x);
+DistanceSample measure(const Sphere& sphere, const Vec3& x);
+
+Shape make_shape(const Plane& plane);
+Shape make_shape(const Box& box);
+Shape make_shape(const Cylinder& cylinder);
+Shape make_shape(const Sphere& sphere);
+
+}  // namespace gasgrain

@@ -1,0 +1,33 @@
+// Makes a sampled field of a shape and checks that a sampled field describes a closed solid.
+#pragma once
+
+#include <string>
+
+#include "coupling/shared/sampled_distance.hpp"
+
+namespace gasgrain {
+
+struct SamplingBox {
+  Vec3 lower;
+  Vec3 upper;      // rounded up to whole bricks of 8 cells
+  double spacing;  // m
+  double band;     // |phi| up to here is resolved, m
+  bool cut;        // the body may end at the sides of the box
+};
+
+// Width of the band unless the user gives one.
+inline double default_band(double spacing) {
+  return 8.0 * spacing;
+}
+
+// Samples `shape`, which must not change faster than distance does (|grad phi| <= 1), as primitives
+// and booleans do. Throws UserError when the box is empty or would need too many bricks.
+SampledDistance sample_shape(const SignedDistance& shape, const SamplingBox& box);
+
+// Throws UserError "<name>: body not closed ..." when the field cannot be the signed distance of a
+// closed solid: neighbouring values differ by more than their spacing, so that the sign changes
+// where no surface is; solid or gas is missing altogether; or the surface ends at the sides of the
+// sampled box and the field does not say that this is meant (`cut`).
+void check_closed(const SampledDistance& field, const std::string& name);
+
+}  // namespace gasgrain
