@@ -1,0 +1,29 @@
+#include "coupling/coupling_options.hpp"
+
+#include <filesystem>
+
+namespace gasgrain::coupling {
+
+CouplingOptions read_coupling_options(const ConfigTable& table, const cfd::GasProperties& gas) {
+  CouplingOptions options;
+  options.drag_name = table.choice_or("drag", options.drag_name, drag_closure_names());
+  options.drag.closure = find_drag_closure(options.drag_name);
+  options.drag.density = gas.density;
+  options.drag.viscosity = gas.viscosity;
+  options.drag.smallest_void_fraction =
+      table.number_or("smallest_void_fraction", options.drag.smallest_void_fraction,
+                      {.lower = 0, .upper = 1, .lower_open = true});
+  options.feedback = table.choice_or("feedback", "two-way", {"two-way", "one-way"}) == "two-way"
+                         ? Feedback::two_way
+                         : Feedback::one_way;
+  options.gas_step = table.number_or("gas_step", 0.0, Range::positive());
+  options.kernel_width = table.number_or("kernel_width", 0.0, Range::positive());
+  options.average_from = table.number_or("average_from", 0.0, Range::non_negative());
+  options.progress_interval = table.number_or("progress_interval", 0.0, Range::positive());
+  options.case_name =
+      table.text_or("case_name", std::filesystem::path(table.file()).stem().string());
+  table.reject_unknown_keys();
+  return options;
+}
+
+}  // namespace gasgrain::coupling

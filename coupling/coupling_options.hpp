@@ -1,0 +1,32 @@
+// Section [coupling] of a case file: docs/coupling.md.
+#pragma once
+
+#include <string>
+
+#include "cfd/gas_case.hpp"
+#include "coupling/momentum_exchange.hpp"
+#include "coupling/shared/config_table.hpp"
+
+namespace gasgrain::coupling {
+
+enum class Feedback {
+  two_way,  // grains displace and drag the gas
+  one_way,  // the gas does not notice the grains: void fraction 1, no drag on the gas
+};
+
+struct CouplingOptions {
+  std::string drag_name = "gidaspow";
+  DragOptions drag;
+  Feedback feedback = Feedback::two_way;
+  double gas_step = 0.0;      // s, requested interval between exchanges; 0 = from the limits
+  double kernel_width = 0.0;  // m, standard deviation of the deposition kernel; 0 = from dx and d
+  double average_from = 0.0;  // s of gas time: start of the time means
+  double progress_interval = 0.0;  // s of gas time between progress lines; 0 = as the frames
+  std::string case_name;           // in summary.json
+};
+
+// Throws UserError: unknown keys or closures, values out of range.
+CouplingOptions read_coupling_options(const ConfigTable& coupling_table,
+                                      const cfd::GasProperties& gas);
+
+}  // namespace gasgrain::coupling

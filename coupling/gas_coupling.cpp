@@ -1,0 +1,251 @@
+// The coupling step (design: coupling numerics). At time t, after the grains moved over the
+// interval:
+//
+//   1  the grains' data go to the ranks that own their cells
+//   2  eps = 1 - D V at the grains' new places
+//   3  B = beta V / (1 - eps) per grain with eps and u gathered by D^T; u of the interval's start
+//   4  D B and D (B v) go to the gas
+//   5  the gas advances over the interval, with B (u - v) implicit
+//   6  F = B (u - v) - V grad p with u and grad p gathered by D^T
+//   7  the forces go back and are held over the next interval
+//
+// D spreads and D^T gathers with one set of weights, and the solver spreads cell values to faces
+// with the shares by which it samples faces at cells. So sum F_drag dt is the momentum that the gas
+// lost, to round-off, whatever the state. Directions in which a cell has no free face (a grid one
+// cell deep) hold the gas at the wall's velocity: there the drag goes to the wall. When the
+// interval exceeds the gas solver's largest step, it is divided: eps changes linearly, and the mean
+// of the sampled u and grad p makes the drag exchange exact again.
+#include "coupling/gas_coupling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "cfd/loops.hpp"
+#include "coupling/shared/error.hpp"
+
+namespace gasgrain::coupling {
+
+namespace {
+
+constexpr double width_over_spacing = 0.8;  // kernel: at least this standard deviation
+constexpr double width_over_diameter = 1.2;
+
+double largest_spacing(const cfd::Grid& grid) {
+  double largest = 0;
+  for (int d = 0; d < 3; ++d) {
+    if (grid.cells[d] > 1) largest = std::max(largest, grid.spacing()[d]);
+  }
+  return largest > 0 ? largest : grid.spacing().minCoeff();
+}
+
+std::array<cfd::Field*, 6> components(cfd::VectorField& a, cfd::VectorField& b) {
+  return {&a[0], &a[1], &a[2], &b[0], &b[1], &b[2]};
+}
+
+void add(cfd::Field& sum, const cfd::Field& field) {
+  for (std::size_t n = 0; n < sum.count(); ++n) sum[n] += field[n];
+}
+
+void scale(cfd::Field& field, double factor) {
+  for (std::size_t n = 0; n < field.count(); ++n) field[n] *= factor;
+}
+
+void allreduce(std::span<double> values, MPI_Op operation, MPI_Comm communicator) {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, operation,
+                communicator);
+}
+
+}  // namespace
+
+GasCoupling::GasCoupling(const cfd::GasCase& gas_case, const CouplingOptions& options,
+                         MPI_Comm communicator)
+    : options_(options),
+      gas_(gas_case, communicator),
+      deposition_(gas_.decomposition(), gas_.walls()),
+      transfer_(gas_.decomposition()),
+      void_fraction_(gas_.decomposition().block().size, 1.0) {
+  for (int d = 0; d < 3; ++d) {
+    velocity_[d] = cfd::Field(gas_.decomposition().block().size);
+    pressure_gradient_[d] = cfd::Field(gas_.decomposition().block().size);
+  }
+  if (options_.kernel_width > 0) {
+    kernel_width_ = options_.kernel_width;
+    deposition_.set_width(kernel_width_);
+  }
+}
+
+ExchangeReport GasCoupling::begin(std::span<Vec3> forces, std::span<const GrainRecord> grains) {
+  report_ = {};
+  send_grains_to_gas_ranks(grains);
+  deposit_void_fraction();
+  gas_.grains().void_fraction = void_fraction_;
+  gas_.accept_void_fraction_as_old();
+  evaluate_drag();
+  deposit_drag();
+  gas_.sample_at_cells(velocity_, pressure_gradient_);
+  gather_forces();
+  transfer_.return_to_senders(forces, forces_);
+  measure(0.0);
+  return report_;
+}
+
+ExchangeReport GasCoupling::exchange(std::span<Vec3> forces, std::span<const GrainRecord> grains,
+                                     double interval) {
+  report_ = {};
+  send_grains_to_gas_ranks(grains);
+  deposit_void_fraction();
+  evaluate_drag();
+  deposit_drag();
+  advance_gas(interval);
+  gather_forces();
+  transfer_.return_to_senders(forces, forces_);
+  measure(interval);
+  return report_;
+}
+
+void GasCoupling::send_grains_to_gas_ranks(std::span<const GrainRecord> grains) {
+  transfer_.send(grains);
+  const std::vector<GrainRecord>& received = transfer_.received();
+  if (options_.kernel_width <= 0) {
+    double largest = kernel_diameter_;
+    for (const GrainRecord& grain : received) largest = std::max(largest, grain_diameter(grain));
+    allreduce({&largest, 1}, MPI_MAX, gas_.decomposition().communicator());
+    if (largest > kernel_diameter_ || kernel_width_ == 0.0) {
+      kernel_diameter_ = largest;
+      kernel_width_ = std::max(width_over_spacing * largest_spacing(gas_.decomposition().grid()),
+                               width_over_diameter * largest);
+      deposition_.set_width(kernel_width_);
+    }
+  }
+  std::vector<Vec3> positions(received.size());
+  for (std::size_t n = 0; n < received.size(); ++n) positions[n] = received[n].position;
+  deposition_.locate(positions);
+}
+
+void GasCoupling::deposit_void_fraction() {
+  if (options_.feedback == Feedback::one_way) return;
+  const std::vector<GrainRecord>& grains = transfer_.received();
+  std::vector<std::array<double, 1>> volumes(grains.size());
+  for (std::size_t n = 0; n < grains.size(); ++n) volumes[n] = {grains[n].volume};
+  cfd::Field solid(void_fraction_.size());
+  deposition_.deposit<1>({&solid}, volumes);
+  double smallest = 1.0;
+  cfd::for_each_cell(solid.size(), [&](int i, int j, int k) {
+    const double eps = 1.0 - solid(i, j, k);
+    void_fraction_(i, j, k) = eps;
+    smallest = std::min(smallest, eps);
+  });
+  allreduce({&smallest, 1}, MPI_MIN, gas_.decomposition().communicator());
+  report_.smallest_void_fraction = smallest;
+  if (smallest > 0) return;
+  std::ostringstream message;
+  message
+      << "the void fraction of a gas cell is " << smallest
+      << ", but must be positive; grains overlap strongly or the deposition kernel is too narrow "
+         "for them (coupling.kernel_width is "
+      << kernel_width_ << " m here): check the packing or widen the kernel";
+  throw UserError(message.str());
+}
+
+void GasCoupling::evaluate_drag() {
+  const std::vector<GrainRecord>& grains = transfer_.received();
+  gas_.sample_at_cells(velocity_, pressure_gradient_);
+  cfd::Field eps = void_fraction_;
+  std::vector<std::array<double, 4>> gathered(grains.size());
+  deposition_.gather<4>(gathered, {&eps, &velocity_[0], &velocity_[1], &velocity_[2]});
+  coefficients_.assign(grains.size(), 0.0);
+  void_fractions_.resize(grains.size());
+  for (std::size_t n = 0; n < grains.size(); ++n) {
+    const auto& [around, u, v, w] = gathered[n];
+    void_fractions_[n] = around;
+    if (!deposition_.takes_part(n)) continue;
+    const SurroundingGas gas{around, {u, v, w}};
+    coefficients_[n] = exchange_coefficient(grains[n], gas, options_.drag);
+    if (void_fraction_is_limited(gas, options_.drag)) ++report_.limited;
+  }
+}
+
+void GasCoupling::deposit_drag() {
+  if (options_.feedback == Feedback::one_way) return;
+  const std::vector<GrainRecord>& grains = transfer_.received();
+  std::vector<std::array<double, 4>> amounts(grains.size());
+  for (std::size_t n = 0; n < grains.size(); ++n) {
+    const Vec3 momentum = coefficients_[n] * grains[n].velocity;
+    amounts[n] = {coefficients_[n], momentum[0], momentum[1], momentum[2]};
+  }
+  cfd::GrainPhase& phase = gas_.grains();
+  deposition_.deposit<4>({&phase.momentum_exchange, &phase.exchange_momentum[0],
+                          &phase.exchange_momentum[1], &phase.exchange_momentum[2]},
+                         amounts);
+}
+
+void GasCoupling::advance_gas(double interval) {
+  const double start = MPI_Wtime();
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil(interval / gas_.largest_stable_step() * (1 - 1e-9))));
+  const cfd::Field old_void_fraction = gas_.grains().void_fraction;
+  cfd::VectorField velocity_sum = velocity_, gradient_sum = pressure_gradient_;
+  for (cfd::Field* field : components(velocity_sum, gradient_sum)) field->fill(0.0);
+  for (int s = 1; s <= steps; ++s) {
+    const double share = double(s) / steps;
+    cfd::Field& eps = gas_.grains().void_fraction;
+    for (std::size_t n = 0; n < eps.count(); ++n) {
+      eps[n] = s == steps ? void_fraction_[n]
+                          : (1 - share) * old_void_fraction[n] + share * void_fraction_[n];
+    }
+    const cfd::StepReport step = gas_.advance(interval / steps);
+    report_.pressure_iterations += step.pressure.iterations;
+    report_.divergence = std::max(report_.divergence, step.divergence);
+    report_.removed_mean = std::max(report_.removed_mean, step.removed_mean);
+    add(report_.gas_momentum, step.momentum);
+    gas_.sample_at_cells(velocity_, pressure_gradient_);
+    for (int d = 0; d < 3; ++d) {
+      add(velocity_sum[d], velocity_[d]);
+      add(gradient_sum[d], pressure_gradient_[d]);
+    }
+  }
+  velocity_ = std::move(velocity_sum);
+  pressure_gradient_ = std::move(gradient_sum);
+  for (cfd::Field* field : components(velocity_, pressure_gradient_)) scale(*field, 1.0 / steps);
+  report_.gas_steps = steps;
+  report_.interval = interval;
+  report_.gas_seconds = MPI_Wtime() - start;
+  add_drag_on_walls(interval);
+}
+
+// What the drag gives to walls: the momentum of cells' directions without a free face.
+void GasCoupling::add_drag_on_walls(double interval) {
+  if (options_.feedback == Feedback::one_way) return;
+  const cfd::GrainPhase& phase = gas_.grains();
+  const cfd::WallGeometry& walls = gas_.walls();
+  const cfd::Index3 size = gas_.decomposition().block().size;
+  const double volume = gas_.decomposition().grid().cell_volume();
+  for (int d = 0; d < 3; ++d) {
+    double force = 0;
+    cfd::for_each_cell(size, [&](int i, int j, int k) {
+      const std::ptrdiff_t n = void_fraction_.index(i, j, k);
+      if (walls.lower_share[d][n] + walls.upper_share[d][n] > 0) return;
+      force += deposition_.open_fraction()[n] *
+               (phase.exchange_momentum[d][n] - phase.momentum_exchange[n] * velocity_[d][n]);
+    });
+    report_.drag_on_walls[d] += interval * volume * force;
+  }
+}
+
+void GasCoupling::gather_forces() {
+  const std::vector<GrainRecord>& grains = transfer_.received();
+  std::vector<std::array<double, 6>> gathered(grains.size());
+  deposition_.gather<6>(gathered, components(velocity_, pressure_gradient_));
+  drag_.resize(grains.size());
+  pressure_.resize(grains.size());
+  forces_.resize(grains.size());
+  for (std::size_t n = 0; n < grains.size(); ++n) {
+    const auto& g = gathered[n];
+    drag_[n] = coefficients_[n] * (Vec3(g[0], g[1], g[2]) - grains[n].velocity);
+    pressure_[n] = -grains[n].volume * Vec3(g[3], g[4], g[5]);
+    forces_[n] = drag_[n] + pressure_[n];
+  }
+}
+
+}  // namespace gasgrain::coupling

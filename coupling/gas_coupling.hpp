@@ -1,0 +1,64 @@
+// Gas and grains exchange volume and momentum: one coupling step.
+//
+// Protocol: construct; begin() once; then exchange() after every interval of DEM steps. All calls
+// are collective. The forces are to be held until the next exchange.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "cfd/gas_solver.hpp"
+#include "coupling/coupling_options.hpp"
+#include "coupling/exchange_report.hpp"
+#include "coupling/grain_transfer.hpp"
+#include "coupling/void_fraction.hpp"
+
+namespace gasgrain::coupling {
+
+class GasCoupling {
+ public:
+  GasCoupling(const cfd::GasCase& gas_case, const CouplingOptions& options, MPI_Comm communicator);
+
+  // First exchange: the grains appear in a gas in its initial state. `forces` [N] gets one entry
+  // per local grain, zero for grains outside the grid.
+  ExchangeReport begin(std::span<Vec3> forces, std::span<const GrainRecord> grains);
+  // The grains moved for `interval` [s]: advances the gas over it and returns the new forces.
+  ExchangeReport exchange(std::span<Vec3> forces, std::span<const GrainRecord> grains,
+                          double interval);
+
+  const cfd::GasSolver& gas() const { return gas_; }
+  const CouplingOptions& options() const { return options_; }
+  const Deposition& deposition() const { return deposition_; }
+  double kernel_width() const { return kernel_width_; }  // m
+
+ private:
+  void send_grains_to_gas_ranks(std::span<const GrainRecord> grains);
+  void deposit_void_fraction();
+  void evaluate_drag();
+  void deposit_drag();
+  void advance_gas(double interval);
+  void add_drag_on_walls(double interval);
+  void gather_forces();
+  // Completes the report by what the ranks add up to; coupling/exchange_report.cpp.
+  void measure(double interval);
+
+  CouplingOptions options_;
+  cfd::GasSolver gas_;
+  Deposition deposition_;
+  GrainTransfer transfer_;
+  double kernel_width_ = 0.0;     // m
+  double kernel_diameter_ = 0.0;  // m, largest grain so far
+
+  // Per received grain.
+  std::vector<double> coefficients_;            // B, kg/s
+  std::vector<double> void_fractions_;          // eps around it
+  std::vector<Vec3> drag_, pressure_, forces_;  // N; forces_ = drag_ + pressure_
+
+  // Cells.
+  cfd::Field void_fraction_;                       // at the end of the interval
+  cfd::VectorField velocity_, pressure_gradient_;  // as the grains see them: means over gas steps
+  ExchangeReport report_;                          // of the exchange under way, this rank's part
+};
+
+}  // namespace gasgrain::coupling

@@ -1,0 +1,48 @@
+// Conservative diffusion of cell fields within the open space: widens the deposition kernel.
+#pragma once
+
+#include <span>
+
+#include "cfd/field.hpp"
+#include "cfd/grid.hpp"
+#include "cfd/wall_geometry.hpp"
+
+namespace gasgrain::coupling {
+
+// How often and how strongly to smooth.
+struct SmoothingPlan {
+  int sweeps = 0;
+  Vec3 number = Vec3::Zero();  // lambda per direction and sweep, in [0, 1/8]
+};
+
+// The least number of sweeps that widens the quadratic B-spline (variance dx^2 / 4 per direction)
+// to the standard deviation `width` [m]. Directions of a single cell are not smoothed.
+SmoothingPlan plan_smoothing(const cfd::Grid& grid, double width);
+
+class Smoothing {
+ public:
+  Smoothing(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls);
+
+  void set_plan(const SmoothingPlan& plan);
+  const SmoothingPlan& plan() const { return plan_; }
+
+  // Open share of each cell, 1 - alpha; 0 in cells that no open face connects to others and outside
+  // the grid. Ghosts filled.
+  const cfd::Field& open_fraction() const { return open_fraction_; }
+
+  // All sweeps, in place, on intensive fields (amount per open volume). Collective; ghosts are
+  // overwritten and stale afterwards.
+  void apply(std::span<cfd::Field* const> fields) const;
+
+ private:
+  void sweep(cfd::Field& field, cfd::Field& scratch) const;
+
+  const cfd::Decomposition& decomposition_;
+  SmoothingPlan plan_;
+  cfd::Field open_fraction_;
+  cfd::Field inverse_open_fraction_;  // 0 in closed cells
+  cfd::VectorField passage_;          // min(1 - alpha) of the two cells of an open face, else 0
+  cfd::VectorField conductance_;      // lambda * passage
+};
+
+}  // namespace gasgrain::coupling

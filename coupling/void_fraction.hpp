@@ -1,0 +1,59 @@
+// The operator D that spreads what grains carry over the cells, and its transpose that gathers cell
+// values to the grains.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "coupling/smoothing.hpp"
+
+namespace gasgrain::coupling {
+
+// Quadratic B-spline weights at the cells -1, 0, 1 around the cell that holds the grain; `offset`
+// in
+// [-1/2, 1/2] is the distance from the cell centre over the spacing.
+std::array<double, 3> spline_weights(double offset);
+
+class Deposition {
+ public:
+  // Keeps a reference to `decomposition`.
+  Deposition(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls);
+
+  // Standard deviation of the kernel, m; see plan_smoothing().
+  void set_width(double width);
+  const SmoothingPlan& plan() const { return smoothing_.plan(); }
+  const cfd::Field& open_fraction() const { return smoothing_.open_fraction(); }
+
+  // Takes the grains' positions; each must lie in a cell of this rank's block. A grain around which
+  // every cell is closed takes no part: it deposits nothing and gathers zeros.
+  void locate(std::span<const Vec3> positions);
+  std::size_t size() const { return stencils_.size(); }
+  bool takes_part(std::size_t grain) const { return stencils_[grain].weight > 0; }
+
+  // D: cells[c] = deposited amount of component c per open volume of the cell. Amounts are stored
+  // grain by grain, all components of a grain adjacent. Collective; ghosts are not filled.
+  template <int components>
+  void deposit(const std::array<cfd::Field*, components>& cells,
+               std::span<const std::array<double, components>> amounts) const;
+
+  // Transpose of D times the open volume of cells: the kernel's mean of cells[c] around each grain.
+  // Collective; overwrites `cells` by their smoothed values.
+  template <int components>
+  void gather(std::span<std::array<double, components>> values,
+              const std::array<cfd::Field*, components>& cells) const;
+
+ private:
+  struct Stencil {
+    std::ptrdiff_t centre = 0;                      // index of the cell that holds the grain
+    std::array<std::array<double, 3>, 3> spline{};  // [direction][-1, 0, 1]
+    double weight = 0;  // 1 / sum of spline weights times (1 - alpha); 0: takes no part
+  };
+
+  const cfd::Decomposition& decomposition_;
+  Smoothing smoothing_;
+  std::vector<Stencil> stencils_;
+};
+
+}  // namespace gasgrain::coupling
