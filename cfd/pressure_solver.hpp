@@ -13,10 +13,10 @@ struct PressureReport {
   double residual = 0.0;  // true residual over right-hand side, 2-norm, recomputed after the solve
 };
 
-// -sum over faces of transmissibility * (p_neighbour - p) + diagonal * p = right_hand_side, per cell.
-// transmissibility[d] sits on the lower face of a cell in direction d (ghost face `size` filled) and
-// is zero on closed faces; `diagonal` (>= 0) carries pressure outlets. A cell without any
-// coefficient gets an identity row and p = 0.
+// -sum over faces of transmissibility * (p_neighbour - p) + diagonal * p = right_hand_side, per
+// cell. transmissibility[d] sits on the lower face of a cell in direction d (ghost face `size`
+// filled) and is zero on closed faces; `diagonal` (>= 0) carries pressure outlets. A cell without
+// any coefficient gets an identity row and p = 0.
 struct PressureSystem {
   VectorField transmissibility;
   Field diagonal;
@@ -34,5 +34,7 @@ class PressureSolver {
 };
 
 std::unique_ptr<PressureSolver> make_hypre_solver(const Decomposition& decomposition);
+// Own conjugate gradients with a multigrid preconditioner: see pressure_multigrid.cpp.
+std::unique_ptr<PressureSolver> make_multigrid_solver(const Decomposition& decomposition);
 
 }  // namespace gasgrain::cfd

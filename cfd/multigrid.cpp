@@ -1,0 +1,466 @@
+// Multigrid for -div(c grad p) + d p with strongly varying c, closed faces and thin domains.
+//
+// - Coarsening by 2 in the directions whose spacing is still small (semi-coarsening), so that the
+//   strong couplings are coarsened first. Cells are joined within a rank's block, hence blocks of
+//   any (odd, uneven) size work and a coarse face never straddles two ranks.
+// - Transfer: piecewise constant, its transpose downwards. The coarse face coefficient is the sum
+// of
+//   the fine ones times the ratio of the distances between cell centres, which makes up for the
+//   constant transfer (Braess, Computing 55 (1995) 379, over-correction; Wesseling 1992, ch. 5).
+// - Smoother: red-black Gauss-Seidel, two sweeps down and two up in mirrored order, which keeps the
+//   cycle symmetric. Colours follow the global index, so they agree across ranks.
+// - Coarsest level: gathered on every rank, dense Cholesky. A pure Neumann problem gets a relative
+//   1e-6 on the diagonal there; the constant it adds lies in the null space.
+// - Single precision: the cycle only preconditions a conjugate-gradient iteration in double.
+#include "cfd/multigrid.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gasgrain::cfd {
+
+namespace {
+
+constexpr long coarsest_cells = 96;
+constexpr double still_small = 1.9;  // coarsen while spacing < 1.9 x the smallest one
+constexpr int sweeps = 2;
+
+}  // namespace
+
+struct Multigrid::Level {
+  Index3 size{};                             // owned cells
+  std::array<int, 3> coarsening{1, 1, 1};    // cells joined per direction on the next level
+  int parity = 0;                            // of the global index of owned cell (0,0,0)
+  std::array<std::ptrdiff_t, 3> stride{};    // one ghost layer all around, x fastest
+  std::array<std::vector<double>, 3> width;  // cell widths incl. one ghost at each end, m
+  std::array<std::vector<float>, 3> face;    // coefficient of the lower face of each cell
+  std::vector<float> outlet;                 // extra diagonal
+  std::vector<float> inverse_diagonal;       // 0 for a cell without coefficients
+  std::vector<float> x, b;
+  std::vector<float> send, receive;  // packed block faces
+
+  void allocate(const Index3& n) {
+    size = n;
+    stride = {1, n[0] + 2, std::ptrdiff_t(n[0] + 2) * (n[1] + 2)};
+    const std::size_t count = stride[2] * (n[2] + 2);
+    for (auto* v : {&face[0], &face[1], &face[2], &outlet, &inverse_diagonal, &x, &b}) {
+      v->assign(count, 0.0F);
+    }
+    const std::size_t largest_face =
+        std::max({std::size_t(n[0]) * n[1], std::size_t(n[1]) * n[2], std::size_t(n[0]) * n[2]});
+    send.resize(largest_face);
+    receive.resize(largest_face);
+  }
+  std::ptrdiff_t at(int i, int j, int k) const {
+    return (i + 1) + (j + 1) * stride[1] + (k + 1) * stride[2];
+  }
+  long cells() const { return long(size[0]) * size[1] * size[2]; }
+
+  void fill_ghosts(const Decomposition& blocks);
+  void set_inverse_diagonal();
+  void smooth(int colour);
+  void smooth_from_zero(int colour);
+};
+
+struct Multigrid::Coarsest {
+  std::vector<int> counts, offsets;  // cells per rank
+  int total = 0;
+  Eigen::LLT<Eigen::MatrixXd> factor;
+  Eigen::VectorXd values;
+};
+
+namespace {
+
+struct FaceLoop {
+  std::array<int, 3> lower{0, 0, 0};
+  std::array<int, 3> upper;
+};
+
+template <class Level>
+void pack(const Level& level, const FaceLoop& loop, const std::vector<float>& from,
+          std::vector<float>& buffer) {
+  std::size_t n = 0;
+  for (int k = loop.lower[2]; k < loop.upper[2]; ++k)
+    for (int j = loop.lower[1]; j < loop.upper[1]; ++j)
+      for (int i = loop.lower[0]; i < loop.upper[0]; ++i) buffer[n++] = from[level.at(i, j, k)];
+}
+
+template <class Level>
+void unpack(const Level& level, const FaceLoop& loop, const std::vector<float>& buffer,
+            std::vector<float>& to) {
+  std::size_t n = 0;
+  for (int k = loop.lower[2]; k < loop.upper[2]; ++k)
+    for (int j = loop.lower[1]; j < loop.upper[1]; ++j)
+      for (int i = loop.lower[0]; i < loop.upper[0]; ++i) to[level.at(i, j, k)] = buffer[n++];
+}
+
+}  // namespace
+
+// Face ghosts of x; the stencil needs no edges or corners.
+void Multigrid::Level::fill_ghosts(const Decomposition& blocks) {
+  for (int d = 0; d < 3; ++d) {
+    for (int side = 0; side < 2; ++side) {  // send towards `side`, receive from the other one
+      const int to = blocks.neighbour(d, side);
+      const int from = blocks.neighbour(d, 1 - side);
+      if (to == MPI_PROC_NULL && from == MPI_PROC_NULL) continue;
+      FaceLoop out{.lower = {0, 0, 0}, .upper = size};
+      out.lower[d] = side == 0 ? 0 : size[d] - 1;
+      out.upper[d] = out.lower[d] + 1;
+      FaceLoop in{.lower = {0, 0, 0}, .upper = size};
+      in.lower[d] = side == 0 ? size[d] : -1;
+      in.upper[d] = in.lower[d] + 1;
+      const int count = static_cast<int>(cells() / size[d]);
+      pack(*this, out, x, send);
+      MPI_Sendrecv(send.data(), count, MPI_FLOAT, to, 2 * d + side, receive.data(), count,
+                   MPI_FLOAT, from, 2 * d + side, blocks.communicator(), MPI_STATUS_IGNORE);
+      if (from != MPI_PROC_NULL) unpack(*this, in, receive, x);
+    }
+  }
+}
+
+void Multigrid::Level::set_inverse_diagonal() {
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j)
+      for (int i = 0; i < size[0]; ++i) {
+        const std::ptrdiff_t c = at(i, j, k);
+        float sum = outlet[c];
+        for (int d = 0; d < 3; ++d) sum += face[d][c] + face[d][c + stride[d]];
+        inverse_diagonal[c] = sum > 0 ? 1.0F / sum : 0.0F;
+      }
+}
+
+// One Gauss-Seidel sweep over the cells of one colour.
+void Multigrid::Level::smooth(int colour) {
+  const float* __restrict tx = face[0].data();
+  const float* __restrict ty = face[1].data();
+  const float* __restrict tz = face[2].data();
+  const float* __restrict inverse = inverse_diagonal.data();
+  const float* __restrict right = b.data();
+  float* p = x.data();
+  const std::ptrdiff_t sy = stride[1];
+  const std::ptrdiff_t sz = stride[2];
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j) {
+      const std::ptrdiff_t row = at(0, j, k);
+      const std::ptrdiff_t end = row + size[0];
+#pragma GCC ivdep
+      for (std::ptrdiff_t c = row + ((colour + parity + j + k) & 1); c < end; c += 2) {
+        p[c] =
+            inverse[c] * (right[c] + tx[c] * p[c - 1] + tx[c + 1] * p[c + 1] + ty[c] * p[c - sy] +
+                          ty[c + sy] * p[c + sy] + tz[c] * p[c - sz] + tz[c + sz] * p[c + sz]);
+      }
+    }
+}
+
+// The first sweep when x = 0: the other colour is zero, ghosts too.
+void Multigrid::Level::smooth_from_zero(int colour) {
+  std::fill(x.begin(), x.end(), 0.0F);
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j) {
+      const std::ptrdiff_t row = at(0, j, k);
+      for (int i = (colour + parity + j + k) & 1; i < size[0]; i += 2) {
+        x[row + i] = inverse_diagonal[row + i] * b[row + i];
+      }
+    }
+}
+
+namespace {
+
+// Widths of joined cells; the ghost widths come from the neighbour ranks (0 where there is none).
+std::vector<double> joined_widths(const std::vector<double>& fine, int joined, int direction,
+                                  const Decomposition& blocks) {
+  const int fine_cells = static_cast<int>(fine.size()) - 2;
+  const int cells = (fine_cells + joined - 1) / joined;
+  std::vector<double> width(cells + 2, 0.0);
+  for (int i = 0; i < fine_cells; ++i) width[1 + i / joined] += fine[1 + i];
+  for (int side = 0; side < 2; ++side) {
+    const double& out = side == 0 ? width[1] : width[cells];
+    double& in = side == 0 ? width[cells + 1] : width[0];
+    MPI_Sendrecv(&out, 1, MPI_DOUBLE, blocks.neighbour(direction, side), side, &in, 1, MPI_DOUBLE,
+                 blocks.neighbour(direction, 1 - side), side, blocks.communicator(),
+                 MPI_STATUS_IGNORE);
+  }
+  return width;
+}
+
+long sum_of_cells(const Decomposition& blocks, long cells) {
+  MPI_Allreduce(MPI_IN_PLACE, &cells, 1, MPI_LONG, MPI_SUM, blocks.communicator());
+  return cells;
+}
+
+// Largest block size per direction over the ranks.
+Index3 largest_size(const Decomposition& blocks, Index3 size) {
+  MPI_Allreduce(MPI_IN_PLACE, size.data(), 3, MPI_INT, MPI_MAX, blocks.communicator());
+  return size;
+}
+
+// Parity of the global index of this rank's first cell when every block has the size it has on this
+// level; sizes[r] are those of all ranks and lower[r] their finest lower corners.
+int global_parity(const std::vector<Index3>& lower, const std::vector<Index3>& sizes, int rank) {
+  int sum = 0;
+  for (int d = 0; d < 3; ++d) {
+    const int e = (d + 1) % 3;
+    const int f = (d + 2) % 3;
+    for (std::size_t r = 0; r < lower.size(); ++r) {
+      const bool same_row = lower[r][e] == lower[rank][e] && lower[r][f] == lower[rank][f];
+      if (same_row && lower[r][d] < lower[rank][d]) sum += sizes[r][d];
+    }
+  }
+  return sum & 1;
+}
+
+}  // namespace
+
+Multigrid::~Multigrid() = default;
+
+Multigrid::Multigrid(const Decomposition& decomposition)
+    : decomposition_(decomposition), coarsest_(std::make_unique<Coarsest>()) {
+  const Decomposition& blocks = decomposition_;
+  std::vector<Index3> lower(blocks.size());
+  std::vector<Index3> sizes(blocks.size());
+  MPI_Allgather(blocks.block().lower.data(), 3, MPI_INT, lower.data(), 3, MPI_INT,
+                blocks.communicator());
+  MPI_Allgather(blocks.block().size.data(), 3, MPI_INT, sizes.data(), 3, MPI_INT,
+                blocks.communicator());
+
+  Vec3 spacing = blocks.grid().spacing();
+  auto level = std::make_unique<Level>();
+  level->allocate(blocks.block().size);
+  level->parity = global_parity(lower, sizes, blocks.rank());
+  for (int d = 0; d < 3; ++d) {
+    const std::vector<double> uniform(level->size[d] + 2, spacing[d]);
+    level->width[d] = joined_widths(uniform, 1, d, blocks);
+  }
+  for (;;) {
+    levels_.push_back(std::move(level));
+    Level& fine = *levels_.back();
+    if (sum_of_cells(blocks, fine.cells()) <= coarsest_cells) break;
+    const Index3 largest = largest_size(blocks, fine.size);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (int d = 0; d < 3; ++d) {
+      if (largest[d] > 1) smallest = std::min(smallest, spacing[d]);
+    }
+    Index3 size = fine.size;
+    for (int d = 0; d < 3; ++d) {
+      if (largest[d] == 1 || spacing[d] >= still_small * smallest) continue;
+      fine.coarsening[d] = 2;
+      spacing[d] *= 2;
+      size[d] = (size[d] + 1) / 2;
+      for (Index3& other : sizes) other[d] = (other[d] + 1) / 2;
+    }
+    if (fine.coarsening == std::array<int, 3>{1, 1, 1}) break;
+    level = std::make_unique<Level>();
+    level->allocate(size);
+    level->parity = global_parity(lower, sizes, blocks.rank());
+    for (int d = 0; d < 3; ++d) {
+      level->width[d] = joined_widths(fine.width[d], fine.coarsening[d], d, blocks);
+    }
+  }
+
+  Coarsest& last = *coarsest_;
+  last.counts.resize(blocks.size());
+  last.offsets.assign(blocks.size(), 0);
+  const int own = static_cast<int>(levels_.back()->cells());
+  MPI_Allgather(&own, 1, MPI_INT, last.counts.data(), 1, MPI_INT, blocks.communicator());
+  for (int r = 1; r < blocks.size(); ++r)
+    last.offsets[r] = last.offsets[r - 1] + last.counts[r - 1];
+  last.total = last.offsets.back() + last.counts.back();
+  last.values.resize(last.total);
+}
+
+namespace {
+
+// Coefficients of the joined cells (see the head of this file).
+template <class Level>
+void coarsen_coefficients(const Level& fine, Level& coarse) {
+  const auto& joined = fine.coarsening;
+  const bool any = joined[0] * joined[1] * joined[2] > 1;
+  for (int d = 0; d < 3; ++d) {
+    const int e = (d + 1) % 3;
+    const int f = (d + 2) % 3;
+    std::array<int, 3> c{};
+    for (c[f] = 0; c[f] < coarse.size[f]; ++c[f])
+      for (c[e] = 0; c[e] < coarse.size[e]; ++c[e])
+        for (c[d] = 0; c[d] <= coarse.size[d]; ++c[d]) {
+          std::array<int, 3> n{};
+          n[d] = std::min(c[d] * joined[d], fine.size[d]);
+          double sum = 0;
+          for (n[f] = c[f] * joined[f]; n[f] < std::min((c[f] + 1) * joined[f], fine.size[f]);
+               ++n[f])
+            for (n[e] = c[e] * joined[e]; n[e] < std::min((c[e] + 1) * joined[e], fine.size[e]);
+                 ++n[e])
+              sum += fine.face[d][fine.at(n[0], n[1], n[2])];
+          const double fine_distance = fine.width[d][n[d]] + fine.width[d][n[d] + 1];
+          const double coarse_distance = coarse.width[d][c[d]] + coarse.width[d][c[d] + 1];
+          coarse.face[d][coarse.at(c[0], c[1], c[2])] =
+              static_cast<float>(sum * fine_distance / coarse_distance);
+        }
+  }
+  // Pressure outlets: the distance to the outlet doubles with the cell.
+  std::fill(coarse.outlet.begin(), coarse.outlet.end(), 0.0F);
+  for (int k = 0; k < fine.size[2]; ++k)
+    for (int j = 0; j < fine.size[1]; ++j)
+      for (int i = 0; i < fine.size[0]; ++i) {
+        coarse.outlet[coarse.at(i / joined[0], j / joined[1], k / joined[2])] +=
+            (any ? 0.5F : 1.0F) * fine.outlet[fine.at(i, j, k)];
+      }
+}
+
+// Global number of every cell of the coarsest level, ghosts by exchange; -1 outside the grid.
+template <class Level>
+std::vector<float> numbered_cells(Level& level, const Decomposition& blocks, int first) {
+  std::fill(level.x.begin(), level.x.end(), -1.0F);
+  int n = first;
+  for (int k = 0; k < level.size[2]; ++k)
+    for (int j = 0; j < level.size[1]; ++j)
+      for (int i = 0; i < level.size[0]; ++i) level.x[level.at(i, j, k)] = static_cast<float>(n++);
+  level.fill_ghosts(blocks);
+  return level.x;
+}
+
+}  // namespace
+
+void Multigrid::set_coefficients(const PressureSystem& system) {
+  Level& finest = *levels_.front();
+  for (int k = 0; k <= finest.size[2]; ++k)
+    for (int j = 0; j <= finest.size[1]; ++j)
+      for (int i = 0; i <= finest.size[0]; ++i) {
+        const std::ptrdiff_t c = finest.at(i, j, k);
+        const std::ptrdiff_t s = system.diagonal.index(i, j, k);
+        for (int d = 0; d < 3; ++d) {
+          finest.face[d][c] = static_cast<float>(system.transmissibility[d][s]);
+        }
+        if (i < finest.size[0] && j < finest.size[1] && k < finest.size[2]) {
+          finest.outlet[c] = static_cast<float>(system.diagonal[s]);
+        }
+      }
+  finest.set_inverse_diagonal();
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+    coarsen_coefficients(*levels_[l], *levels_[l + 1]);
+    levels_[l + 1]->set_inverse_diagonal();
+  }
+
+  Level& last = *levels_.back();
+  Coarsest& dense = *coarsest_;
+  const int first = dense.offsets[decomposition_.rank()];
+  const std::vector<float> number = numbered_cells(last, decomposition_, first);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(dense.total, dense.total);
+  int row = first;
+  for (int k = 0; k < last.size[2]; ++k)
+    for (int j = 0; j < last.size[1]; ++j)
+      for (int i = 0; i < last.size[0]; ++i, ++row) {
+        const std::ptrdiff_t c = last.at(i, j, k);
+        double diagonal = last.outlet[c];
+        for (int d = 0; d < 3; ++d) {
+          for (const std::ptrdiff_t upper : {std::ptrdiff_t{0}, last.stride[d]}) {
+            const double coefficient = last.face[d][c + upper];
+            const int other = static_cast<int>(number[upper ? c + upper : c - last.stride[d]]);
+            if (coefficient <= 0 || other < 0 || other == row) continue;
+            matrix(other, row) -= coefficient;  // column-major: this rank's columns are contiguous
+            diagonal += coefficient;
+          }
+        }
+        matrix(row, row) += diagonal > 0 ? diagonal * (1 + 1e-6) : 1.0;
+      }
+  std::vector<int> counts(dense.counts);
+  std::vector<int> offsets(dense.offsets);
+  for (int& n : counts) n *= dense.total;
+  for (int& n : offsets) n *= dense.total;
+  MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, matrix.data(), counts.data(), offsets.data(),
+                 MPI_DOUBLE, decomposition_.communicator());
+  dense.factor.compute(matrix);
+}
+
+void Multigrid::cycle(std::size_t index) {
+  Level& level = *levels_[index];
+  if (index + 1 == levels_.size()) {
+    Coarsest& dense = *coarsest_;
+    int n = dense.offsets[decomposition_.rank()];
+    for (int k = 0; k < level.size[2]; ++k)
+      for (int j = 0; j < level.size[1]; ++j)
+        for (int i = 0; i < level.size[0]; ++i) dense.values[n++] = level.b[level.at(i, j, k)];
+    MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, dense.values.data(), dense.counts.data(),
+                   dense.offsets.data(), MPI_DOUBLE, decomposition_.communicator());
+    dense.factor.solveInPlace(dense.values);
+    n = dense.offsets[decomposition_.rank()];
+    for (int k = 0; k < level.size[2]; ++k)
+      for (int j = 0; j < level.size[1]; ++j)
+        for (int i = 0; i < level.size[0]; ++i) {
+          level.x[level.at(i, j, k)] = static_cast<float>(dense.values[n++]);
+        }
+    level.fill_ghosts(decomposition_);
+    return;
+  }
+
+  level.smooth_from_zero(0);
+  level.fill_ghosts(decomposition_);
+  for (int half = 1; half < 2 * sweeps; ++half) {
+    level.smooth(half & 1);
+    level.fill_ghosts(decomposition_);
+  }
+
+  // The last sweep left no residual on colour 1, so only colour 0 is restricted.
+  Level& coarse = *levels_[index + 1];
+  const auto& joined = level.coarsening;
+  const std::ptrdiff_t sy = level.stride[1];
+  const std::ptrdiff_t sz = level.stride[2];
+  const std::vector<float>& x = level.x;
+  const std::vector<float>& tx = level.face[0];
+  const std::vector<float>& ty = level.face[1];
+  const std::vector<float>& tz = level.face[2];
+  std::fill(coarse.b.begin(), coarse.b.end(), 0.0F);
+  for (int k = 0; k < level.size[2]; ++k)
+    for (int j = 0; j < level.size[1]; ++j) {
+      const std::ptrdiff_t row = level.at(0, j, k);
+      const std::ptrdiff_t coarse_row = coarse.at(0, j / joined[1], k / joined[2]);
+      const int shift = joined[0] - 1;
+      for (int i = (level.parity + j + k) & 1; i < level.size[0]; i += 2) {
+        const std::ptrdiff_t c = row + i;
+        if (level.inverse_diagonal[c] == 0) continue;
+        coarse.b[coarse_row + (i >> shift)] += level.b[c] - x[c] / level.inverse_diagonal[c] +
+                                               tx[c] * x[c - 1] + tx[c + 1] * x[c + 1] +
+                                               ty[c] * x[c - sy] + ty[c + sy] * x[c + sy] +
+                                               tz[c] * x[c - sz] + tz[c + sz] * x[c + sz];
+      }
+    }
+
+  cycle(index + 1);
+
+  for (int k = 0; k < level.size[2]; ++k)
+    for (int j = 0; j < level.size[1]; ++j) {
+      const std::ptrdiff_t row = level.at(0, j, k);
+      const std::ptrdiff_t coarse_row = coarse.at(0, j / joined[1], k / joined[2]);
+      const int shift = joined[0] - 1;
+      for (int i = 0; i < level.size[0]; ++i)
+        level.x[row + i] += coarse.x[coarse_row + (i >> shift)];
+    }
+  level.fill_ghosts(decomposition_);
+  for (int half = 2 * sweeps - 1; half >= 0; --half) {
+    level.smooth(half & 1);
+    level.fill_ghosts(decomposition_);
+  }
+}
+
+void Multigrid::apply(const Field& residual, double scale, Field& result) {
+  Level& finest = *levels_.front();
+  for (int k = 0; k < finest.size[2]; ++k)
+    for (int j = 0; j < finest.size[1]; ++j) {
+      const std::ptrdiff_t row = finest.at(0, j, k);
+      const std::ptrdiff_t from = residual.index(0, j, k);
+      for (int i = 0; i < finest.size[0]; ++i) {
+        finest.b[row + i] = static_cast<float>(residual[from + i] * scale);
+      }
+    }
+  cycle(0);
+  const double inverse = 1 / scale;
+  for (int k = 0; k < finest.size[2]; ++k)
+    for (int j = 0; j < finest.size[1]; ++j) {
+      const std::ptrdiff_t row = finest.at(0, j, k);
+      const std::ptrdiff_t to = result.index(0, j, k);
+      for (int i = 0; i < finest.size[0]; ++i) result[to + i] = finest.x[row + i] * inverse;
+    }
+}
+
+}  // namespace gasgrain::cfd
