@@ -12,43 +12,43 @@
 namespace gasgrain::cfd {
 
 struct GasProperties {
-  double density = 1.0;                  // rho, kg/m^3
-  double viscosity = 1.8e-5;             // mu, Pa s; 0 skips the viscous terms
-  Vec3 gravity = Vec3::Zero();           // m/s^2
+  double density = 1.0;         // rho, kg/m^3
+  double viscosity = 1.8e-5;    // mu, Pa s; 0 skips the viscous terms
+  Vec3 gravity = Vec3::Zero();  // m/s^2
 };
 
 enum class Convection { none, central, van_leer };
 
 struct Numerics {
   Convection convection = Convection::van_leer;
-  double pressure_tolerance = 1e-6;      // residual over right-hand side, 2-norm
-  int pressure_iterations = 200;         // largest number of CG iterations
-  double courant_number = 0.25;          // largest |u| dt / dx
-  Index3 ranks{0, 0, 0};                 // blocks per direction; 0 = choose
+  double pressure_tolerance = 1e-6;  // residual over right-hand side, 2-norm
+  int pressure_iterations = 200;     // largest number of CG iterations
+  double courant_number = 0.25;      // largest |u| dt / dx
+  Index3 ranks{0, 0, 0};             // blocks per direction; 0 = choose
 };
 
 // Initial and, for the stand-alone solver, imposed state.
 struct InitialState {
-  Vec3 velocity = Vec3::Zero();          // m/s
+  Vec3 velocity = Vec3::Zero();  // m/s
 };
 
 // A bed of grains at rest that never moves: verification and packed beds of the stand-alone solver.
 struct FixedBed {
   bool present = false;
-  double void_fraction = 1.0;            // inside the box
-  double diameter = 0.0;                 // d0, m
+  double void_fraction = 1.0;                       // inside the box
+  double diameter = 0.0;                            // d0, m
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  // box, m
-  std::string drag = "gidaspow";         // closure name, see coupling/shared/drag.hpp
+  std::string drag = "gidaspow";                    // closure name, see coupling/shared/drag.hpp
 };
 
-struct RunControl {                      // stand-alone solver
-  double end_time = 0.0;                 // s
-  double step = 0.0;                     // s; 0 = from the limits
+struct RunControl {       // stand-alone solver
+  double end_time = 0.0;  // s
+  double step = 0.0;      // s; 0 = from the limits
 };
 
 struct Output {
-  std::string directory;                 // "" = no files
-  double interval = 0.0;                 // s of simulated time between frames; 0 = only the last
+  std::string directory;  // "" = no files
+  double interval = 0.0;  // s of simulated time between frames; 0 = only the last
 };
 
 struct GasCase {

@@ -18,8 +18,8 @@ namespace gasgrain::cfd {
 // What the grains do to the gas, in owned cells, per open volume (1 - alpha) V of the cell. The
 // solver fills ghosts itself.
 struct GrainPhase {
-  Field void_fraction;            // eps at the end of the coming step, in (0, 1]
-  Field momentum_exchange;        // B, kg m^-3 s^-1: sum over grains of weight * coefficient / volume
+  Field void_fraction;      // eps at the end of the coming step, in (0, 1]
+  Field momentum_exchange;  // B, kg m^-3 s^-1: sum over grains of weight * coefficient / volume
   VectorField exchange_momentum;  // B v, kg m^-2 s^-2: the same with the grains' velocities (cells)
 };
 
@@ -39,11 +39,11 @@ struct MomentumBudget {
 };
 
 struct StepReport {
-  PressureReport pressure;             // iterations, residual
-  double divergence = 0.0;             // largest |continuity residual| * dt, relative to eps (-)
-  double removed_mean = 0.0;           // of the pressure right-hand side, relative to its 1-norm;
-                                       // 0 when the system is not singular
-  double courant_number = 0.0;         // largest |u| dt / dx after the step
+  PressureReport pressure;      // iterations, residual
+  double divergence = 0.0;      // largest |continuity residual| * dt, relative to eps (-)
+  double removed_mean = 0.0;    // of the pressure right-hand side, relative to its 1-norm;
+                                // 0 when the system is not singular
+  double courant_number = 0.0;  // largest |u| dt / dx after the step
   MomentumBudget momentum;
 };
 
@@ -68,7 +68,7 @@ class GasSolver {
 
   // Largest step that the viscous and Courant limits allow now, s.
   double largest_stable_step() const;
-  double time() const;                  // s
+  double time() const;  // s
 
   const VectorField& velocity() const;  // u on faces, m/s (interstitial)
   const Field& pressure() const;        // p in cells, Pa

@@ -1,6 +1,8 @@
 // Copies of neighbours' values in ghost layers, and the transpose of that copy.
 #pragma once
 
+#include <vector>
+
 #include "cfd/field.hpp"
 #include "cfd/grid.hpp"
 
@@ -18,6 +20,7 @@ void add_ghosts_to_owners(const Decomposition& decomposition, Field& field);
 
 // Sums over all ranks in a fixed order.
 double sum_over_ranks(const Decomposition& decomposition, double value);
+void sum_over_ranks(const Decomposition& decomposition, std::vector<double>& values);  // each value
 double max_over_ranks(const Decomposition& decomposition, double value);
 
 }  // namespace gasgrain::cfd

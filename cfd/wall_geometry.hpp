@@ -11,14 +11,20 @@
 namespace gasgrain::cfd {
 
 // All fields have their ghosts filled. Outside non-periodic sides of the grid everything counts as
-// solid: wall_fraction = 1 in ghost cells, except that the faces of inlet and outlet sides are open.
+// solid: wall_fraction = 1 in ghost cells, except that the faces of inlet and outlet sides are
+// open.
 struct WallGeometry {
-  bool has_bodies = false;   // false: nothing but the sides of the grid
-  Field wall_fraction;       // alpha, cells: share of the cell's volume inside a body, in [0, 1]
-  VectorField open_area;     // a, faces: open share of the face's area, in [0, 1]; 0 on closed faces
-  VectorField distance;      // phi at face centres, m; > 0 in the gas
-  std::array<VectorField, 3> normal;   // grad phi at the face centres of direction [d]
-  VectorField wall_velocity; // m/s, component d of the nearest body's surface velocity at faces of d
+  bool has_bodies = false;  // false: nothing but the sides of the grid
+  Field wall_fraction;      // alpha, cells: share of the cell's volume inside a body, in [0, 1]
+  VectorField open_area;    // a, faces: open share of the face's area, in [0, 1]; 0 on closed faces
+  VectorField distance;     // phi at face centres, m; > 0 in the gas; the grid's diagonal without
+                            // bodies
+  std::array<VectorField, 3> normal;  // grad phi at the face centres of direction [d]
+  VectorField
+      wall_velocity;  // m/s, component d of the nearest body's surface velocity at faces of d
+
+  // Faces: 1 where gas moves freely (open, centre not inside a body, flux not prescribed), else 0.
+  VectorField takes_part;
 
   // Cell centre: how the cell's grains share the two faces of direction d. A face takes part when
   // gas can move through it freely: open and without prescribed flux. Lower and upper share are
@@ -27,8 +33,10 @@ struct WallGeometry {
   std::array<Field, 3> upper_share;
 };
 
-// Samples the bodies that act on the gas. Throws UserError when a body does not reach into the grid
-// (it acts on the gas and is nowhere solid in it) or leaves no open cell.
+// Samples the bodies that act on the gas. A cell through whose faces no gas can move counts as
+// solid, and so does a group of connected cells that are all cut: no cell of it resolves the gas.
+// Throws UserError when a body does not reach into the grid (it acts on the gas and is nowhere
+// solid in it) or leaves no open cell.
 WallGeometry make_wall_geometry(const Decomposition& decomposition, const Boundaries& boundaries,
                                 const std::vector<Body>& bodies);
 

@@ -102,6 +102,11 @@ void ConfigTable::fail(const std::string& key, const std::string& message) const
 
 bool ConfigTable::has(const std::string& key) const { return node_->find(key) != nullptr; }
 
+bool ConfigTable::is_list(const std::string& key) const {
+  const toml::node* value = node_->find(key);
+  return value && value->is_array();
+}
+
 double ConfigTable::number(const std::string& key, const Range& allowed) const {
   const toml::node* value = node_->find(key);
   if (!value) fail(key, "is missing; give a number in " + allowed.text());

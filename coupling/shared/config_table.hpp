@@ -38,6 +38,9 @@ class ConfigTable {
   // True when the key is present; marks it as known.
   bool has(const std::string& key) const;
 
+  // True when the key is present and holds a list; marks it as known.
+  bool is_list(const std::string& key) const;
+
   double number(const std::string& key, const Range& allowed = {}) const;
   double number_or(const std::string& key, double otherwise, const Range& allowed = {}) const;
   long integer(const std::string& key, const Range& allowed = {}) const;

@@ -1,0 +1,115 @@
+#include "cfd/gas_case.hpp"
+
+#include <algorithm>
+
+#include "coupling/files/sdf_file.hpp"
+#include "coupling/shared/drag.hpp"
+
+namespace gasgrain::cfd {
+
+namespace {
+
+Grid read_grid(const ConfigTable& table) {
+  Grid grid;
+  grid.lower = table.vector("lower");
+  grid.upper = table.vector("upper");
+  grid.cells = table.integers3("cells", {.lower = 1, .upper = 1e6});
+  if (!((grid.upper - grid.lower).minCoeff() > 0.0)) {
+    table.fail("upper", "must exceed grid.lower in every component");
+  }
+  table.reject_unknown_keys();
+  return grid;
+}
+
+GasProperties read_gas(const ConfigTable& table) {
+  GasProperties gas;
+  gas.density = table.number("density", Range::positive());
+  gas.viscosity = table.number("viscosity", Range::non_negative());
+  gas.gravity = table.vector_or("gravity", gas.gravity);
+  table.reject_unknown_keys();
+  return gas;
+}
+
+Convection read_convection(const ConfigTable& table) {
+  const std::string name =
+      table.choice_or("convection", "van-leer", {"van-leer", "central", "none"});
+  return name == "none"      ? Convection::none
+         : name == "central" ? Convection::central
+                             : Convection::van_leer;
+}
+
+Numerics read_numerics(const ConfigTable& table) {
+  Numerics n;
+  n.convection = read_convection(table);
+  n.pressure_tolerance =
+      table.number_or("pressure_tolerance", n.pressure_tolerance, {.lower = 1e-14, .upper = 0.1});
+  n.pressure_iterations = static_cast<int>(table.integer_or(
+      "pressure_iterations", n.pressure_iterations, {.lower = 1, .upper = 100000}));
+  n.courant_number = table.number_or("courant_number", n.courant_number,
+                                     {.lower = 0.0, .upper = 0.25, .lower_open = true});
+  if (table.has("ranks")) n.ranks = table.integers3("ranks", {.lower = 1, .upper = 1e6});
+  table.reject_unknown_keys();
+  return n;
+}
+
+InitialState read_initial(const ConfigTable& table) {
+  InitialState initial;
+  initial.velocity = table.vector_or("velocity", initial.velocity);
+  table.reject_unknown_keys();
+  return initial;
+}
+
+FixedBed read_fixed_bed(const ConfigTable& file, const Grid& grid) {
+  FixedBed bed;
+  bed.present = file.has("fixed_bed");
+  if (!bed.present) return bed;
+  const ConfigTable table = file.table("fixed_bed");
+  bed.void_fraction = table.number(
+      "void_fraction", {.lower = 0.0, .upper = 1.0, .lower_open = true, .upper_open = true});
+  bed.diameter = table.number("diameter", Range::positive());
+  bed.lower = table.vector_or("lower", grid.lower);
+  bed.upper = table.vector_or("upper", grid.upper);
+  bed.drag = table.choice_or("drag", bed.drag, drag_closure_names());
+  if (!((bed.upper - bed.lower).minCoeff() > 0.0)) {
+    table.fail("upper", "must exceed fixed_bed.lower in every component");
+  }
+  table.reject_unknown_keys();
+  return bed;
+}
+
+RunControl read_run(const ConfigTable& table) {
+  RunControl run;
+  run.end_time = table.number_or("end_time", run.end_time, Range::non_negative());
+  run.step = table.number_or("step", run.step, Range::non_negative());
+  table.reject_unknown_keys();
+  return run;
+}
+
+Output read_output(const ConfigTable& table) {
+  Output output;
+  output.directory = table.text_or("directory", output.directory);
+  output.interval = table.number_or("interval", output.interval, Range::non_negative());
+  table.reject_unknown_keys();
+  return output;
+}
+
+}  // namespace
+
+GasCase read_gas_case(const ConfigTable& file) {
+  GasCase result;
+  result.grid = read_grid(file.table("grid"));
+  result.gas = read_gas(file.table("gas"));
+  result.boundaries = read_boundaries(file.table("boundary"));
+  result.bodies = read_bodies(file, load_sdf_shape);
+  result.numerics = read_numerics(file.table_or_empty("numerics"));
+  result.initial = read_initial(file.table_or_empty("initial"));
+  result.fixed_bed = read_fixed_bed(file, result.grid);
+  result.run = read_run(file.table_or_empty("run"));
+  result.output = read_output(file.table_or_empty("output"));
+  for (const char* key : {"numerics", "initial", "run", "output", "coupling", "grains"}) {
+    file.has(key);  // known, also where a mistyped section looks for the nearest name
+  }
+  return result;
+}
+
+}  // namespace gasgrain::cfd

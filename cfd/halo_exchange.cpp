@@ -1,0 +1,170 @@
+// Direction after direction, each with the ghosts of the directions before it, so that edges and
+// corners need no messages of their own. Where a block may be thinner than the ghost layers the
+// layers travel one after the other, each relayed from the ghosts the neighbour already has.
+//
+// A field does not say whether it sits on cells or faces. Both copy `halo` layers from below and
+// halo + 1 from above; on cell fields the last one is unused storage.
+#include "cfd/halo_exchange.hpp"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+namespace gasgrain::cfd {
+
+namespace {
+
+// Index range [begin, end) in every direction.
+struct Slab {
+  Index3 begin, end;
+};
+
+// All stored indices, cut to [from, to) in `direction`.
+Slab slab(const Index3& size, int direction, int from, int to) {
+  Slab s{{-halo, -halo, -halo}, {size[0] + halo + 1, size[1] + halo + 1, size[2] + halo + 1}};
+  s.begin[direction] = from;
+  s.end[direction] = to;
+  return s;
+}
+
+template <class Visit>
+void for_each_index(const Slab& s, Visit&& visit) {
+  for (int k = s.begin[2]; k < s.end[2]; ++k) {
+    for (int j = s.begin[1]; j < s.end[1]; ++j) {
+      for (int i = s.begin[0]; i < s.end[0]; ++i) visit(i, j, k);
+    }
+  }
+}
+
+std::vector<double> pack(std::span<Field* const> fields, const Slab& s) {
+  std::vector<double> values;
+  values.reserve(fields.size() * static_cast<std::size_t>(s.end[0] - s.begin[0]) *
+                 (s.end[1] - s.begin[1]) * (s.end[2] - s.begin[2]));
+  for (Field* field : fields) {
+    for_each_index(s, [&](int i, int j, int k) { values.push_back((*field)(i, j, k)); });
+  }
+  return values;
+}
+
+void unpack(std::span<Field* const> fields, const Slab& s, const std::vector<double>& values) {
+  auto next = values.begin();
+  for (Field* field : fields) {
+    for_each_index(s, [&](int i, int j, int k) { (*field)(i, j, k) = *next++; });
+  }
+}
+
+void unpack_add(Field& field, const Slab& s, const std::vector<double>& values) {
+  auto next = values.begin();
+  for_each_index(s, [&](int i, int j, int k) { field(i, j, k) += *next++; });
+}
+
+// Sends to the neighbour on `to_side`, receives the message of the same kind from the other side.
+// Blocks of one row of ranks have the same cross-section, so both messages are equally long.
+// Returns an empty vector when there is nobody to receive from.
+std::vector<double> shift(const Decomposition& decomposition, int direction, int to_side,
+                          std::vector<double> values) {
+  const int to = decomposition.neighbour(direction, to_side);
+  const int from = decomposition.neighbour(direction, 1 - to_side);
+  if (to == decomposition.rank() && from == to) return values;
+  std::vector<double> received(from == MPI_PROC_NULL ? 0 : values.size());
+  const int tag = 2 * direction + to_side;
+  MPI_Sendrecv(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, to, tag, received.data(),
+               static_cast<int>(received.size()), MPI_DOUBLE, from, tag,
+               decomposition.communicator(), MPI_STATUS_IGNORE);
+  return received;
+}
+
+// Copies layers [from, to) counted away from the block face into the ghosts of the neighbours.
+void copy_layers(const Decomposition& decomposition, std::span<Field* const> fields, int direction,
+                 int side, int from, int to) {
+  const Index3& size = decomposition.block().size;
+  const int n = size[direction];
+  // side 0: my lowest layers become the upper ghosts of the neighbour below
+  const Slab source =
+      side == 0 ? slab(size, direction, from, to) : slab(size, direction, n - to, n - from);
+  const Slab ghosts =
+      side == 0 ? slab(size, direction, n + from, n + to) : slab(size, direction, -to, -from);
+  const std::vector<double> received = shift(decomposition, direction, side, pack(fields, source));
+  if (!received.empty()) unpack(fields, ghosts, received);
+}
+
+// Layers that can travel in one message: no block of the row is thinner.
+int layers_at_once(const Decomposition& decomposition, int direction, int layers) {
+  const int thinnest = decomposition.grid().cells[direction] / decomposition.ranks()[direction];
+  return thinnest >= layers ? layers : 1;
+}
+
+void fill(const Decomposition& decomposition, std::span<Field* const> fields) {
+  for (int d = 0; d < 3; ++d) {
+    for (int side = 0; side < 2; ++side) {
+      const int layers = side == 0 ? halo + 1 : halo;
+      const int stride = layers_at_once(decomposition, d, layers);
+      for (int layer = 0; layer < layers; layer += stride) {
+        copy_layers(decomposition, fields, d, side, layer, layer + stride);
+      }
+    }
+  }
+}
+
+// Transpose of copy_layers for one layer or more of a cell field.
+void add_layers(const Decomposition& decomposition, Field& field, int direction, int side, int from,
+                int to) {
+  const Index3& size = decomposition.block().size;
+  const int n = size[direction];
+  const Slab ghosts =
+      side == 0 ? slab(size, direction, n + from, n + to) : slab(size, direction, -to, -from);
+  const Slab owner =
+      side == 0 ? slab(size, direction, from, to) : slab(size, direction, n - to, n - from);
+  Field* const one[] = {&field};
+  const std::vector<double> received = shift(decomposition, direction, 1 - side, pack(one, ghosts));
+  if (!decomposition.at_boundary(direction, 1 - side)) {
+    for_each_index(ghosts, [&](int i, int j, int k) { field(i, j, k) = 0.0; });
+  }
+  if (!received.empty()) unpack_add(field, owner, received);
+}
+
+}  // namespace
+
+void fill_ghosts(const Decomposition& decomposition, Field& field) {
+  Field* const fields[] = {&field};
+  fill(decomposition, fields);
+}
+
+void fill_ghosts(const Decomposition& decomposition, VectorField& field) {
+  Field* const fields[] = {&field[0], &field[1], &field[2]};
+  fill(decomposition, fields);
+}
+
+void add_ghosts_to_owners(const Decomposition& decomposition, Field& field) {
+  for (int d = 2; d >= 0; --d) {
+    for (int side = 1; side >= 0; --side) {
+      const int stride = layers_at_once(decomposition, d, halo);
+      for (int layer = halo - stride; layer >= 0; layer -= stride) {
+        add_layers(decomposition, field, d, side, layer, layer + stride);
+      }
+    }
+  }
+}
+
+void sum_over_ranks(const Decomposition& decomposition, std::vector<double>& values) {
+  std::vector<double> all(values.size() * decomposition.size());
+  const int count = static_cast<int>(values.size());
+  MPI_Allgather(values.data(), count, MPI_DOUBLE, all.data(), count, MPI_DOUBLE,
+                decomposition.communicator());
+  std::fill(values.begin(), values.end(), 0.0);
+  for (std::size_t n = 0; n < all.size(); ++n) values[n % values.size()] += all[n];
+}
+
+double sum_over_ranks(const Decomposition& decomposition, double value) {
+  std::vector<double> one{value};
+  sum_over_ranks(decomposition, one);
+  return one[0];
+}
+
+double max_over_ranks(const Decomposition& decomposition, double value) {
+  double largest = value;
+  MPI_Allreduce(&value, &largest, 1, MPI_DOUBLE, MPI_MAX, decomposition.communicator());
+  return largest;
+}
+
+}  // namespace gasgrain::cfd

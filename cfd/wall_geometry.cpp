@@ -1,0 +1,219 @@
+// Fractions come from plane cuts (open_fraction.cpp), distances from the bodies themselves. What is
+// left open afterwards is cleaned of gas that cannot move: a void there could not follow a change
+// of the grains' volume, so the continuity equation would have no solution.
+#include "cfd/wall_geometry.hpp"
+
+#include <algorithm>
+
+#include "cfd/gas_regions.hpp"
+#include "cfd/halo_exchange.hpp"
+#include "cfd/loops.hpp"
+#include "cfd/open_fraction.hpp"
+#include "coupling/shared/boolean_shapes.hpp"
+#include "coupling/shared/error.hpp"
+
+namespace gasgrain::cfd {
+
+namespace {
+
+constexpr double sliver = 1e-9;  // open shares below count as closed, solid ones as open
+
+class GeometryBuilder {
+ public:
+  GeometryBuilder(const Decomposition& decomposition, const Boundaries& boundaries,
+                  const std::vector<Body>& bodies)
+      : decomposition_(decomposition),
+        boundaries_(boundaries),
+        size_(decomposition.block().size),
+        half_cell_(0.5 * decomposition.grid().spacing()) {
+    for (const Body& body : bodies) {
+      if (!body.acts_on_gas) continue;
+      bodies_.push_back(&body);
+      shapes_.push_back(body.shape);
+    }
+    walls_.has_bodies = !bodies_.empty();
+  }
+
+  WallGeometry build() {
+    allocate();
+    check_bodies_reach_into_grid();
+    sample_cells();
+    for (int d = 0; d < 3; ++d) sample_faces(d);
+    close_faces_of_solid_cells();
+    solidify_unresolved_cells();
+    close_faces_of_solid_cells();
+    share_faces();
+    fill_all_ghosts();
+    return std::move(walls_);
+  }
+
+ private:
+  void allocate();
+  void check_bodies_reach_into_grid() const;
+  void sample_cells();
+  void sample_faces(int d);
+  void close_faces_of_solid_cells();
+  void solidify_unresolved_cells();
+  void share_faces();
+  void fill_all_ghosts();
+
+  Vec3 cell_centre(int i, int j, int k) const {
+    const Index3& lower = decomposition_.block().lower;
+    const Vec3 steps(2 * (i + lower[0]) + 1, 2 * (j + lower[1]) + 1, 2 * (k + lower[2]) + 1);
+    return decomposition_.grid().lower + steps.cwiseProduct(half_cell_);
+  }
+  // Side of the grid that the face at local index n of direction d is on, or -1.
+  int side_of_face(int d, int n) const {
+    if (n == 0 && decomposition_.at_boundary(d, 0)) return 0;
+    return n == size_[d] && decomposition_.at_boundary(d, 1) ? 1 : -1;
+  }
+  bool is_open_side(int d, int side) const {
+    const BoundaryType type = boundaries_[d][side].type;
+    return type == BoundaryType::inlet || type == BoundaryType::outlet;
+  }
+  bool flux_is_prescribed(int d, int side) const {
+    return side >= 0 && boundaries_[d][side].type != BoundaryType::outlet;
+  }
+  const Body& nearest_body(const Vec3& x) const {
+    return **std::min_element(bodies_.begin(), bodies_.end(), [&](const Body* a, const Body* b) {
+      return a->shape->distance(x) < b->shape->distance(x);
+    });
+  }
+
+  const Decomposition& decomposition_;
+  const Boundaries& boundaries_;
+  Index3 size_;
+  Vec3 half_cell_;
+  std::vector<const Body*> bodies_;  // those that act on the gas
+  std::vector<Shape> shapes_;
+  Shape solid_;  // union of them
+  WallGeometry walls_;
+};
+
+void GeometryBuilder::allocate() {
+  const Grid& grid = decomposition_.grid();
+  walls_.wall_fraction = Field(size_, 1.0);
+  for (int d = 0; d < 3; ++d) {
+    walls_.open_area[d] = walls_.takes_part[d] = Field(size_);
+    walls_.distance[d] = Field(size_, (grid.upper - grid.lower).norm());
+    walls_.wall_velocity[d] = Field(size_);
+    for (Field& component : walls_.normal[d]) component = Field(size_);
+    walls_.lower_share[d] = walls_.upper_share[d] = Field(size_);
+  }
+  if (walls_.has_bodies) solid_ = make_union(shapes_);
+}
+
+void GeometryBuilder::check_bodies_reach_into_grid() const {
+  for (const Body* body : bodies_) {
+    bool inside = false;
+    for_each_cell(size_, [&](int i, int j, int k) {
+      inside = inside || open_fraction(*body->shape, cell_centre(i, j, k), half_cell_) < 1 - sliver;
+    });
+    if (max_over_ranks(decomposition_, inside ? 1.0 : 0.0) == 0.0) {
+      throw UserError("body '" + body->name +
+                      "' acts on the gas but no part of it is inside the gas grid; move it, extend "
+                      "grid.lower and grid.upper, or give it acts_on = [\"grains\"]");
+    }
+  }
+}
+
+void GeometryBuilder::sample_cells() {
+  for_each_cell(size_, [&](int i, int j, int k) {
+    double open = 1.0;
+    if (solid_) open = open_fraction(*solid_, cell_centre(i, j, k), half_cell_);
+    walls_.wall_fraction(i, j, k) = open < sliver ? 1.0 : open > 1 - sliver ? 0.0 : 1.0 - open;
+  });
+  fill_ghosts(decomposition_, walls_.wall_fraction);
+}
+
+void GeometryBuilder::sample_faces(int d) {
+  Vec3 half_face = half_cell_;
+  half_face[d] = 0.0;
+  for_each_face(decomposition_, d, [&](int i, int j, int k) {
+    const std::ptrdiff_t n = walls_.open_area[d].index(i, j, k);
+    const int side = side_of_face(d, Index3{i, j, k}[d]);
+    double open = side >= 0 && !is_open_side(d, side) ? 0.0 : 1.0;
+    if (solid_) {
+      const Vec3 centre = cell_centre(i, j, k) - half_cell_[d] * Vec3::Unit(d);
+      if (open > 0.0) open = open_fraction(*solid_, centre, half_face);
+      const DistanceSample sample = solid_->sample(centre);
+      walls_.distance[d][n] = sample.distance;
+      for (int e = 0; e < 3; ++e) walls_.normal[d][e][n] = sample.gradient[e];
+      walls_.wall_velocity[d][n] = nearest_body(centre).surface_velocity[d];
+    }
+    walls_.open_area[d][n] = open < sliver ? 0.0 : open > 1 - sliver ? 1.0 : open;
+  });
+}
+
+// The faces between gas and solid cells are closed; what is left takes part unless its centre is
+// inside a body or its flux is prescribed.
+void GeometryBuilder::close_faces_of_solid_cells() {
+  for (int d = 0; d < 3; ++d) {
+    Field& open = walls_.open_area[d];
+    for_each_face(decomposition_, d, [&](int i, int j, int k) {
+      const std::ptrdiff_t n = open.index(i, j, k);
+      const int side = side_of_face(d, Index3{i, j, k}[d]);
+      const bool solid_above = side != 1 && walls_.wall_fraction[n] == 1.0;
+      const bool solid_below = side != 0 && walls_.wall_fraction[n - open.stride(d)] == 1.0;
+      if (solid_above || solid_below) open[n] = 0.0;
+      const bool free = open[n] > 0.0 && walls_.distance[d][n] >= 0.0;
+      walls_.takes_part[d][n] = free && !flux_is_prescribed(d, side) ? 1.0 : 0.0;
+    });
+  }
+  fill_ghosts(decomposition_, walls_.takes_part);
+}
+
+void GeometryBuilder::solidify_unresolved_cells() {
+  Field no_outlet(size_), whole(size_);
+  const GasRegions found = find_gas_regions(decomposition_, walls_.takes_part, no_outlet);
+  for_each_cell(size_, [&](int i, int j, int k) {
+    whole(i, j, k) = walls_.wall_fraction(i, j, k) == 0.0 ? 1.0 : 0.0;
+  });
+  const std::vector<double> whole_cells = sum_per_region(decomposition_, found, whole);
+  std::size_t n = 0;
+  for_each_cell(size_, [&](int i, int j, int k) {
+    const int region = found.region_of_cell[n++];
+    // a whole cell that nothing joins may still be a sealed box of one cell
+    const bool resolved =
+        region == GasRegions::none ? whole(i, j, k) > 0.0 : whole_cells[region] > 0.0;
+    if (!resolved) walls_.wall_fraction(i, j, k) = 1.0;
+  });
+  fill_ghosts(decomposition_, walls_.wall_fraction);
+  double open = 0.0;
+  for_each_cell(size_, [&](int i, int j, int k) { open += 1.0 - walls_.wall_fraction(i, j, k); });
+  if (sum_over_ranks(decomposition_, open) == 0.0) {
+    throw UserError(
+        "the bodies fill the whole gas grid; distance must be positive in the gas, so a vessel is "
+        "complement = {...} of its interior");
+  }
+}
+
+void GeometryBuilder::share_faces() {
+  for (int d = 0; d < 3; ++d) {
+    const Field& part = walls_.takes_part[d];
+    for_each_cell(size_, [&](int i, int j, int k) {
+      const std::ptrdiff_t n = part.index(i, j, k);
+      const double lower = part[n], upper = part[n + part.stride(d)];
+      if (lower + upper == 0.0 || walls_.wall_fraction[n] == 1.0) return;
+      walls_.lower_share[d][n] = lower / (lower + upper);
+      walls_.upper_share[d][n] = upper / (lower + upper);
+    });
+  }
+}
+
+void GeometryBuilder::fill_all_ghosts() {
+  for (VectorField* field : {&walls_.open_area, &walls_.takes_part, &walls_.distance,
+                             &walls_.wall_velocity, &walls_.lower_share, &walls_.upper_share}) {
+    fill_ghosts(decomposition_, *field);
+  }
+  for (VectorField& normal : walls_.normal) fill_ghosts(decomposition_, normal);
+}
+
+}  // namespace
+
+WallGeometry make_wall_geometry(const Decomposition& decomposition, const Boundaries& boundaries,
+                                const std::vector<Body>& bodies) {
+  return GeometryBuilder(decomposition, boundaries, bodies).build();
+}
+
+}  // namespace gasgrain::cfd
