@@ -72,6 +72,7 @@ class FrameWriter {
   };
 
   int begin_frame(double time);
+  void drop_frames_from(double time);
   void finish_frame(double time, int number, const std::string& xml);
   std::string file_name(int number) const;
   std::string path(const std::string& file) const;

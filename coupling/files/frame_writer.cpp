@@ -1,0 +1,297 @@
+// Frames are written to a temporary name, closed, renamed, and only then entered in the index,
+// which is itself replaced by a rename. XDMF counts dimensions from the slowest, so everything that
+// belongs to the grid's directions is written in the order z, y, x.
+#include "coupling/files/frame_writer.hpp"
+
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "coupling/files/hdf5_file.hpp"
+#include "coupling/shared/error.hpp"
+
+namespace gasgrain {
+
+namespace {
+
+// Runs `action` on every rank; when it throws on any, throws UserError on all.
+void run_on_all(MPI_Comm comm, const std::function<void()>& action) {
+  std::string failure;
+  try {
+    action();
+  } catch (const std::exception& error) {
+    failure = error.what();
+  }
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  int failed = failure.empty() ? std::numeric_limits<int>::max() : rank;  // lowest failed rank
+  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MIN, comm);
+  if (failed == std::numeric_limits<int>::max()) return;
+  int length = static_cast<int>(failure.size());
+  MPI_Bcast(&length, 1, MPI_INT, failed, comm);
+  failure.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(failure.data(), length, MPI_CHAR, failed, comm);
+  throw UserError(failure);
+}
+
+bool is_identifier(const std::string& name) {
+  for (const char c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') return false;
+  }
+  return !name.empty();
+}
+
+void check_arrays(const std::vector<NamedArray>& arrays) {
+  for (const NamedArray& array : arrays) {
+    GASGRAIN_ASSERT(is_identifier(array.name));
+    GASGRAIN_ASSERT(array.components == 1 || array.components == 3);
+  }
+}
+
+// Shortest text that reads back as the same number.
+std::string exact(double value) {
+  std::array<char, 32> text{};
+  for (int digits = 15; digits <= 17; ++digits) {
+    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+    if (std::stod(text.data()) == value) break;
+  }
+  return text.data();
+}
+
+std::string joined(const std::vector<std::uint64_t>& values) {
+  std::string text;
+  for (const std::uint64_t value : values) {
+    if (!text.empty()) text += ' ';
+    text += std::to_string(value);
+  }
+  return text;
+}
+
+std::string reversed(const Vec3& v) {
+  return exact(v[2]) + " " + exact(v[1]) + " " + exact(v[0]);
+}
+
+struct ElementType {
+  const char* name;
+  int bytes;
+};
+constexpr ElementType real{"Float", 8};
+constexpr ElementType integer{"Int", 8};
+
+std::string hdf_item(const std::string& location, const std::vector<std::uint64_t>& size,
+                     ElementType type = real) {
+  return "<DataItem Format=\"HDF\" Dimensions=\"" + joined(size) + "\" NumberType=\"" + type.name +
+         "\" Precision=\"" + std::to_string(type.bytes) + "\">" + location + "</DataItem>";
+}
+
+std::string three_numbers(const Vec3& v) {
+  return "<DataItem Format=\"XML\" Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\">" +
+         reversed(v) + "</DataItem>";
+}
+
+std::string attribute_element(const std::string& name, int components, const char* center,
+                              const std::string& item) {
+  return "        <Attribute Name=\"" + name + "\" AttributeType=\"" +
+         (components == 3 ? "Vector" : "Scalar") + "\" Center=\"" + center + "\">" + item +
+         "</Attribute>\n";
+}
+
+std::string grid_element(double time, const std::string& body) {
+  return "      <Grid Name=\"frame\" GridType=\"Uniform\">\n        <Time Value=\"" + exact(time) +
+         "\"/>\n" + body + "      </Grid>\n";
+}
+
+ArrayBlock cell_block(const GridFrame& frame) {
+  ArrayBlock block;
+  for (int d = 2; d >= 0; --d) {
+    GASGRAIN_ASSERT(frame.block_lower[d] >= 0 && frame.block_cells[d] >= 0);
+    block.global.push_back(static_cast<std::uint64_t>(frame.cells[d]));
+    block.start.push_back(static_cast<std::uint64_t>(frame.block_lower[d]));
+    block.count.push_back(static_cast<std::uint64_t>(frame.block_cells[d]));
+  }
+  return block;
+}
+
+// This rank's grains follow those of the lower ranks.
+ArrayBlock grain_block(MPI_Comm comm, std::size_t count) {
+  const std::uint64_t here = count;
+  std::uint64_t before = 0, total = 0;
+  MPI_Scan(&here, &before, 1, MPI_UINT64_T, MPI_SUM, comm);
+  MPI_Allreduce(&here, &total, 1, MPI_UINT64_T, MPI_SUM, comm);
+  return {.global = {total}, .start = {before - here}, .count = {here}};
+}
+
+ArrayBlock with_components(ArrayBlock block, int components) {
+  if (components == 1) return block;
+  block.global.push_back(static_cast<std::uint64_t>(components));
+  block.start.push_back(0);
+  block.count.push_back(static_cast<std::uint64_t>(components));
+  return block;
+}
+
+void replace_file(const std::string& part, const std::string& path) {
+  std::error_code error;
+  std::filesystem::rename(part, path, error);
+  if (error) throw UserError("cannot write '" + path + "': " + error.message());
+}
+
+}  // namespace
+
+FrameWriter::FrameWriter(MPI_Comm comm, std::string directory, std::string name, Series series)
+    : comm_(comm), directory_(std::move(directory)), name_(std::move(name)) {
+  GASGRAIN_ASSERT(is_identifier(name_));
+  MPI_Comm_rank(comm_, &rank_);
+  run_on_all(comm_, [this] {
+    if (rank_ != 0) return;
+    std::error_code error;
+    std::filesystem::create_directories(directory_, error);
+    if (error || !std::filesystem::is_directory(directory_)) {
+      throw UserError("cannot create the output directory '" + directory_ +
+                      "': " + error.message());
+    }
+  });
+  run_on_all(comm_, [this] { read_index(); });
+  if (series == Series::start_new) drop_frames_from(-std::numeric_limits<double>::infinity());
+}
+
+void FrameWriter::write(double time, const GridFrame& frame) {
+  check_arrays(frame.arrays);
+  const ArrayBlock block = cell_block(frame);
+  const int number = begin_frame(time);
+  const std::string file = file_name(number);
+  std::vector<std::uint64_t> nodes = block.global;
+  for (std::uint64_t& n : nodes) ++n;
+  std::string xml = "        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"" +
+                    joined(nodes) + "\"/>\n        <Geometry GeometryType=\"ORIGIN_DXDYDZ\">" +
+                    three_numbers(frame.lower) + three_numbers(frame.spacing) + "</Geometry>\n";
+  run_on_all(comm_, [&] {
+    Hdf5File out = Hdf5File::create(path(file) + ".part", comm_);
+    out.write_attribute<double>("time", {time});
+    for (const NamedArray& array : frame.arrays) {
+      const ArrayBlock values = with_components(block, array.components);
+      out.write(array.name, values, array.values);
+      xml += attribute_element(array.name, array.components, "Cell",
+                               hdf_item(file + ":/" + array.name, values.global));
+    }
+    out.close();
+  });
+  finish_frame(time, number, grid_element(time, xml));
+}
+
+void FrameWriter::write(double time, const PointFrame& frame) {
+  check_arrays(frame.arrays);
+  const ArrayBlock block = grain_block(comm_, frame.count);
+  const ArrayBlock positions = with_components(block, 3);
+  const int number = begin_frame(time);
+  const std::string file = file_name(number);
+  std::string xml =
+      "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" + joined(block.global) +
+      "\" NodesPerElement=\"1\"/>\n" + "        <Geometry GeometryType=\"XYZ\">" +
+      hdf_item(file + ":/position", positions.global) + "</Geometry>\n" +
+      attribute_element("id", 1, "Node", hdf_item(file + ":/id", block.global, integer));
+  run_on_all(comm_, [&] {
+    Hdf5File out = Hdf5File::create(path(file) + ".part", comm_);
+    out.write_attribute<double>("time", {time});
+    out.write("position", positions, frame.positions);
+    out.write("id", block, frame.ids);
+    for (const NamedArray& array : frame.arrays) {
+      const ArrayBlock values = with_components(block, array.components);
+      out.write(array.name, values, array.values);
+      xml += attribute_element(array.name, array.components, "Node",
+                               hdf_item(file + ":/" + array.name, values.global));
+    }
+    out.close();
+  });
+  finish_frame(time, number, grid_element(time, xml));
+}
+
+std::vector<double> FrameWriter::times() const {
+  std::vector<double> result;
+  for (const Entry& entry : entries_) result.push_back(entry.time);
+  return result;
+}
+
+int FrameWriter::begin_frame(double time) {
+  drop_frames_from(time);
+  return entries_.empty() ? 0 : entries_.back().number + 1;
+}
+
+void FrameWriter::finish_frame(double time, int number, const std::string& xml) {
+  entries_.push_back({time, number, xml});
+  run_on_all(comm_, [&] {
+    if (rank_ != 0) return;
+    replace_file(path(file_name(number)) + ".part", path(file_name(number)));
+    write_index();
+  });
+}
+
+// The index forgets the frames before their files go.
+void FrameWriter::drop_frames_from(double time) {
+  std::vector<int> dropped;
+  while (!entries_.empty() && entries_.back().time >= time) {
+    dropped.push_back(entries_.back().number);
+    entries_.pop_back();
+  }
+  if (dropped.empty()) return;
+  run_on_all(comm_, [&] {
+    if (rank_ != 0) return;
+    write_index();
+    for (const int number : dropped) std::filesystem::remove(path(file_name(number)));
+  });
+}
+
+std::string FrameWriter::file_name(int number) const {
+  std::array<char, 16> digits{};
+  std::snprintf(digits.data(), digits.size(), "%06d", number);
+  return name_ + "_" + digits.data() + ".h5";
+}
+
+std::string FrameWriter::path(const std::string& file) const {
+  return (std::filesystem::path(directory_) / file).string();
+}
+
+// Reads back what write_index wrote: <Grid Name="frame" ...> elements with their time and file.
+void FrameWriter::read_index() {
+  std::ifstream in(path(name_ + ".xdmf"));
+  if (!in) return;
+  std::string line;
+  Entry entry{};
+  while (std::getline(in, line)) {
+    line += '\n';
+    if (line.find("<Grid Name=\"frame\"") != std::string::npos) {
+      entry = Entry{.time = 0, .number = -1, .xml = ""};
+    }
+    entry.xml += line;
+    std::size_t at = line.find("<Time Value=\"");
+    if (at != std::string::npos) entry.time = std::stod(line.substr(at + 13));
+    at = line.find(">" + name_ + "_");
+    if (at != std::string::npos) entry.number = std::stoi(line.substr(at + name_.size() + 2));
+    if (line == "      </Grid>\n") {
+      if (entry.number < 0)
+        throw UserError("cannot continue '" + path(name_ + ".xdmf") +
+                        "': a "
+                        "frame in it names no file; remove it to start anew");
+      entries_.push_back(entry);
+    }
+  }
+}
+
+void FrameWriter::write_index() const {
+  const std::string index = path(name_ + ".xdmf");
+  std::ofstream out(index + ".part");
+  out << "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
+      << "    <Grid Name=\"" << name_
+      << "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (const Entry& entry : entries_) out << entry.xml;
+  out << "    </Grid>\n  </Domain>\n</Xdmf>\n";
+  out.close();
+  if (!out) throw UserError("cannot write '" + index + ".part'; is the disk full?");
+  replace_file(index + ".part", index);
+}
+
+}  // namespace gasgrain
