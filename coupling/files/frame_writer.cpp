@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -134,6 +135,30 @@ ArrayBlock with_components(ArrayBlock block, int components) {
   return block;
 }
 
+// Each grain is a cell of one vertex. The vertex numbers are spelt out because ParaView's Xdmf3
+// reader makes no cells without them.
+std::vector<std::int64_t> vertices(const ArrayBlock& block) {
+  std::vector<std::int64_t> result(block.count.front());
+  std::iota(result.begin(), result.end(), static_cast<std::int64_t>(block.start.front()));
+  return result;
+}
+
+std::string polyvertex_elements(const std::string& file, std::uint64_t grains) {
+  return "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" +
+         std::to_string(grains) + "\" NodesPerElement=\"1\">" +
+         hdf_item(file + ":/vertex", {grains}, integer) +
+         "</Topology>\n        <Geometry GeometryType=\"XYZ\">" +
+         hdf_item(file + ":/position", {grains, 3}) + "</Geometry>\n";
+}
+
+std::string corectmesh_elements(const GridFrame& frame) {
+  std::vector<std::uint64_t> nodes;
+  for (int d = 2; d >= 0; --d) nodes.push_back(static_cast<std::uint64_t>(frame.cells[d]) + 1);
+  return "        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"" + joined(nodes) +
+         "\"/>\n        <Geometry GeometryType=\"ORIGIN_DXDYDZ\">" + three_numbers(frame.lower) +
+         three_numbers(frame.spacing) + "</Geometry>\n";
+}
+
 void replace_file(const std::string& part, const std::string& path) {
   std::error_code error;
   std::filesystem::rename(part, path, error);
@@ -164,11 +189,7 @@ void FrameWriter::write(double time, const GridFrame& frame) {
   const ArrayBlock block = cell_block(frame);
   const int number = begin_frame(time);
   const std::string file = file_name(number);
-  std::vector<std::uint64_t> nodes = block.global;
-  for (std::uint64_t& n : nodes) ++n;
-  std::string xml = "        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"" +
-                    joined(nodes) + "\"/>\n        <Geometry GeometryType=\"ORIGIN_DXDYDZ\">" +
-                    three_numbers(frame.lower) + three_numbers(frame.spacing) + "</Geometry>\n";
+  std::string xml = corectmesh_elements(frame);
   run_on_all(comm_, [&] {
     Hdf5File out = Hdf5File::create(path(file) + ".part", comm_);
     out.write_attribute<double>("time", {time});
@@ -190,15 +211,14 @@ void FrameWriter::write(double time, const PointFrame& frame) {
   const int number = begin_frame(time);
   const std::string file = file_name(number);
   std::string xml =
-      "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" + joined(block.global) +
-      "\" NodesPerElement=\"1\"/>\n" + "        <Geometry GeometryType=\"XYZ\">" +
-      hdf_item(file + ":/position", positions.global) + "</Geometry>\n" +
+      polyvertex_elements(file, block.global.front()) +
       attribute_element("id", 1, "Node", hdf_item(file + ":/id", block.global, integer));
   run_on_all(comm_, [&] {
     Hdf5File out = Hdf5File::create(path(file) + ".part", comm_);
     out.write_attribute<double>("time", {time});
     out.write("position", positions, frame.positions);
     out.write("id", block, frame.ids);
+    out.write("vertex", block, vertices(block).data());
     for (const NamedArray& array : frame.arrays) {
       const ArrayBlock values = with_components(block, array.components);
       out.write(array.name, values, array.values);

@@ -17,7 +17,7 @@ namespace {
 Vec3 perpendicular(const Vec3& axis) {
   int smallest;
   axis.cwiseAbs().minCoeff(&smallest);
-  return axis.cross(Vec3::Unit(smallest)).normalized();
+  return (Vec3::Unit(smallest) - axis[smallest] * axis).normalized();
 }
 
 }  // namespace
