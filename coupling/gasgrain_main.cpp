@@ -1,0 +1,108 @@
+// gasgrain: LIGGGHTS with coarse grains, SDF walls and gas. Same command line as liggghts; --help
+// and
+// --version are ours.
+#include <mpi.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+// LIGGGHTS
+#include <input.h>
+#include <lammps.h>
+#include <signal_handling.h>
+#include <universe.h>
+
+#include "coupling/fatal_error.hpp"
+#include "coupling/shared/error.hpp"
+#include "liggghts_plugins/register.hpp"
+
+namespace {
+
+using LAMMPS_NS::LAMMPS;
+
+// As LIGGGHTS's own main: an interrupt or termination signal ends the run after the present step
+// (and writes a restart file if the script asks for it), SIGUSR1 writes a restart file.
+void install_signal_handlers() {
+  struct sigaction interrupt = {}, write_restart = {};
+  interrupt.sa_handler = LAMMPS_NS::SignalHandler::int_handler;
+  write_restart.sa_handler = LAMMPS_NS::SignalHandler::usr1_handler;
+  sigaction(SIGINT, &interrupt, nullptr);
+  sigaction(SIGTERM, &interrupt, nullptr);
+  sigaction(SIGUSR1, &write_restart, nullptr);
+}
+
+bool is_alone(int argc, char** argv, const char* option) {
+  return argc == 2 && std::strcmp(argv[1], option) == 0;
+}
+
+// The version of the LIGGGHTS library that was found at run time.
+std::string liggghts_version() {
+  std::string words[] = {"gasgrain", "-log", "none", "-screen", "/dev/null"};
+  char* arguments[std::size(words)];
+  for (std::size_t i = 0; i < std::size(words); ++i) arguments[i] = words[i].data();
+  LAMMPS liggghts(static_cast<int>(std::size(words)), arguments, MPI_COMM_SELF);
+  return liggghts.universe->version;
+}
+
+std::string version_text() {
+  return std::string("gasgrain ") + GASGRAIN_VERSION + "\n" + liggghts_version() + "\n";
+}
+
+std::string help_text() {
+  std::string text = version_text() +
+                     "\nusage: [mpirun -np N] gasgrain -in SCRIPT [options of liggghts]\n"
+                     "       gasgrain -h          options and styles of LIGGGHTS\n\n"
+                     "Styles added to LIGGGHTS, and where they are described:\n";
+  for (const auto& style : gasgrain::plugins::described_styles())
+    text += "  " + style.usage + "\n      " + style.summary + " (" + style.documentation + ")\n";
+  return text + "\nAll script commands: docs/script_commands.md\n";
+}
+
+void register_all_styles(LAMMPS& liggghts) {
+  gasgrain::plugins::register_styles(liggghts);
+}
+
+void describe_all_styles() {
+  gasgrain::plugins::describe_plugin_styles();
+}
+
+void print_on_first_rank(const std::string& text) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) std::fputs(text.c_str(), stdout);
+}
+
+void run_script(int argc, char** argv) {
+  gasgrain::coupling::FatalErrors errors(MPI_COMM_WORLD);
+  auto* liggghts = new LAMMPS(argc, argv, MPI_COMM_WORLD);
+  try {
+    register_all_styles(*liggghts);
+    liggghts->input->file();
+  } catch (const gasgrain::UserError& error) {
+    errors.end_program(error.what(), liggghts->logfile);
+  } catch (const std::exception& error) {
+    errors.end_program(std::string("internal error of gasgrain: ") + error.what(),
+                       liggghts->logfile);
+  }
+  delete liggghts;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  install_signal_handlers();
+  MPI_Init(&argc, &argv);
+  if (is_alone(argc, argv, "--version")) {
+    print_on_first_rank(version_text());
+  } else if (is_alone(argc, argv, "--help")) {
+    describe_all_styles();
+    print_on_first_rank(help_text());
+  } else {
+    run_script(argc, argv);
+  }
+  MPI_Finalize();
+}

@@ -1,0 +1,336 @@
+#include "liggghts_plugins/pair_gran_cgm.hpp"
+
+#include <atom.h>
+#include <comm.h>
+#include <fix_contact_property_atom.h>
+#include <force.h>
+#include <modify.h>
+#include <mpi.h>
+#include <neigh_list.h>
+#include <pair_gran.h>
+#include <update.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "coupling/shared/error.hpp"
+#include "liggghts_plugins/contact_model_cgm.hpp"
+#include "liggghts_plugins/contact_statistics.hpp"
+#include "liggghts_plugins/sphere_contact.hpp"
+
+namespace gasgrain::plugins {
+
+namespace {
+
+using LAMMPS_NS::PairGran;
+using LIGGGHTS::ContactModels::CONTACT_NORMAL_MODEL;
+using LIGGGHTS::ContactModels::CONTACT_TANGENTIAL_MODEL;
+using Column = Eigen::Map<Vec3>;
+using ConstColumn = Eigen::Map<const Vec3>;
+
+constexpr const char* where = "pair_style gran model cgm";
+constexpr int contact_bits = CONTACT_NORMAL_MODEL | CONTACT_TANGENTIAL_MODEL;
+
+// The atom arrays of LIGGGHTS; per-atom vectors are contiguous.
+struct Grains {
+  explicit Grains(LAMMPS_NS::Atom& atom)
+      : x(atom.x[0]),
+        v(atom.v[0]),
+        omega(atom.omega[0]),
+        radius(atom.radius),
+        mass(atom.rmass),
+        type(atom.type),
+        mask(atom.mask),
+        f(atom.f[0]),
+        torque(atom.torque[0]),
+        local_count(atom.nlocal) {}
+
+  const double *x, *v, *omega, *radius, *mass;
+  const int *type, *mask;
+  double *f, *torque;
+  int local_count;
+};
+
+inline ConstColumn column(const double* array, int i) {
+  return ConstColumn(array + 3 * i);
+}
+inline Column column(double* array, int i) {
+  return Column(array + 3 * i);
+}
+
+// What one contact did, for those who list contact forces.
+struct PairContact {
+  int i, j;
+  const double* delta;  // x_i - x_j, m
+  const double* n;
+  Vec3 force;     // on i, N; -force on j
+  Vec3 torque_i;  // N m
+  Vec3 torque_j;  // N m
+  double squared_distance;
+  double* history;  // all history values of the pair, or nullptr
+};
+
+// Masses of the pair as LIGGGHTS sees them: a grain of a rigid body has the body's mass.
+struct PairMasses {
+  double i, j;
+  bool i_frozen, j_frozen;
+};
+
+PairMasses pair_masses(const PairGran& pair, const Grains& g, int i, int j) {
+  PairMasses m{g.mass[i], g.mass[j], (g.mask[i] & pair.freeze_group_bit()) != 0,
+               (g.mask[j] & pair.freeze_group_bit()) != 0};
+  if (pair.fr_pair()) {
+    if (pair.mr_pair()[i] > 0.0) m.i = pair.mr_pair()[i];
+    if (pair.mr_pair()[j] > 0.0) m.j = pair.mr_pair()[j];
+  }
+  return m;
+}
+
+inline ContactCoefficients coefficients(const GrainContact& contact, const PairMasses& m) {
+  if (m.j_frozen) return contact.first_against_fixed(m.i);
+  if (m.i_frozen) return contact.second_against_fixed(m.j);
+  return contact.between(m.i, m.j);
+}
+
+LIGGGHTS::ContactModels::ForceData force_data(const Vec3& force, const Vec3& torque) {
+  LIGGGHTS::ContactModels::ForceData data;
+  Column(data.delta_F) = force;
+  Column(data.delta_torque) = torque;
+  return data;
+}
+
+// Passes contacts on to the computes and fixes of LIGGGHTS that ask for single contacts.
+class ContactReport {
+ public:
+  ContactReport(PairGran& pair, LAMMPS_NS::Atom& atom, LAMMPS_NS::Force& force, bool store_forces,
+                bool list_contacts)
+      : pair_(pair),
+        atom_(atom),
+        newton_pair_(force.newton_pair),
+        store_forces_(store_forces),
+        list_contacts_(list_contacts) {}
+
+  void operator()(const PairContact& c) const {
+    const bool both = newton_pair_ || c.j < atom_.nlocal;
+    if (pair_.computeflag() && pair_.store_sum_normal_force()) {
+      const double f_n = c.force.dot(ConstColumn(c.n));
+      *pair_.get_sum_normal_force_ptr(c.i) += f_n;
+      if (both) *pair_.get_sum_normal_force_ptr(c.j) += f_n;
+    }
+    if (list_contacts_) list(c);
+    if (pair_.evflag)
+      pair_.ev_tally_xyz(c.i, c.j, atom_.nlocal, newton_pair_, 0.0, 0.0, c.force[0], c.force[1],
+                         c.force[2], c.delta[0], c.delta[1], c.delta[2]);
+    if (store_forces_) {
+      store(pair_.fix_contact_forces(), c.i, c.j, c.force, c.torque_i);
+      store(pair_.fix_contact_forces(), c.j, c.i, -c.force, c.torque_j);
+    }
+    if (pair_.storeContactForcesStress()) {
+      store(pair_.fix_contact_forces_stress(), c.i, c.j, c.force, Vec3(c.j, 0, 0));
+      store(pair_.fix_contact_forces_stress(), c.j, c.i, -c.force, Vec3(c.i, 0, 0));
+    }
+  }
+
+ private:
+  void list(const PairContact& c) const {
+    LIGGGHTS::ContactModels::SurfacesIntersectData surfaces;
+    surfaces.i = c.i;
+    surfaces.j = c.j;
+    surfaces.rsq = c.squared_distance;
+    surfaces.contact_history = c.history;
+    auto forces = force_data(c.force, c.torque_i);
+    pair_.cpl_add_pair(surfaces, forces);
+  }
+
+  // The stress list takes the first four values (force and partner index), the force list all six.
+  void store(LAMMPS_NS::FixContactPropertyAtom* fix, int i, int j, const Vec3& force,
+             const Vec3& more) const {
+    if (fix->has_partner(i, atom_.tag[j]) != -1) return;
+    double values[6] = {force[0], force[1], force[2], more[0], more[1], more[2]};
+    fix->add_partner(i, atom_.tag[j], values);
+  }
+
+  PairGran& pair_;
+  LAMMPS_NS::Atom& atom_;
+  int newton_pair_;
+  bool store_forces_;
+  bool list_contacts_;
+};
+
+struct NoReport {
+  void operator()(const PairContact&) const {}
+};
+
+}  // namespace
+
+PairGranCgm::PairGranCgm(LAMMPS_NS::LAMMPS* liggghts, PairGran* parent, int64_t variant)
+    : Pointers(liggghts), parent_(parent), variant_(variant) {
+  settings_.tangential = tangential_model_of(variant);
+  if (settings_.tangential == TangentialModel::history) {
+    history_offset_ = parent->add_history_value("shearx", "1");
+    parent->add_history_value("sheary", "1");
+    parent->add_history_value("shearz", "1");
+  }
+  set_pair_settings(*lmp, &settings_);
+}
+
+PairGranCgm::~PairGranCgm() {
+  if (pair_settings(*lmp) == &settings_) set_pair_settings(*lmp, nullptr);
+}
+
+void PairGranCgm::settings(int argument_count, char** arguments, LIGGGHTS::IContactHistorySetup*) {
+  read_contact_settings(settings_, {argument_count, arguments}, where);
+}
+
+void PairGranCgm::init_granular() {
+  if (!atom->sphere_flag || !atom->rmass || atom->superquadric_flag || atom->shapetype_flag)
+    throw UserError(std::string(where) + ": needs spheres with their own mass (atom_style sphere)");
+  if (parent_->storeSumDelta())
+    throw UserError(std::string(where) + ": multi-contact models are not supported");
+  if (modify->n_fixes_style("insert/stream/predefined") > 0)
+    throw UserError(std::string(where) +
+                    ": fix insert/stream/predefined, which inserts contact histories of stock "
+                    "models, is not supported");
+  contacts_ = GrainContactTable(*lmp, settings_, where);
+}
+
+void PairGranCgm::write_restart_settings(FILE* file) {
+  fwrite(&variant_, sizeof(variant_), 1, file);
+  fwrite(&settings_.stiffness_exponent.value, sizeof(double), 1, file);
+}
+
+void PairGranCgm::read_restart_settings(FILE* file, int64_t) {
+  int complete = 1;
+  if (comm->me == 0) {
+    int64_t stored = -1;
+    complete = fread(&stored, sizeof(stored), 1, file) == 1 && stored == variant_ &&
+               fread(&settings_.stiffness_exponent.value, sizeof(double), 1, file) == 1;
+  }
+  MPI_Bcast(&complete, 1, MPI_INT, 0, world);
+  if (!complete)
+    throw UserError(std::string(where) + ": the restart file holds no such pair style");
+  MPI_Bcast(&settings_.stiffness_exponent.value, 1, MPI_DOUBLE, 0, world);
+}
+
+int PairGranCgm::get_history_offset(const std::string) {
+  return -1;
+}
+
+bool PairGranCgm::contact_match(const std::string kind, const std::string model) {
+  return variant_contains(variant_, kind, model);
+}
+
+void PairGranCgm::compute_force(PairGran* pair, int eflag, int vflag, int addflag) {
+  if (eflag || vflag)
+    pair->ev_setup(eflag, vflag);
+  else
+    pair->evflag = pair->vflag_fdotr = 0;
+
+  const bool store_forces =
+      pair->storeContactForces() && update->ntimestep % pair->storeContactForcesEvery() == 0;
+  const bool list_contacts = pair->cpl() && addflag;
+  const bool report = pair->evflag || store_forces || pair->storeContactForcesStress() ||
+                      list_contacts || pair->store_sum_normal_force();
+  if (report)
+    loop_of_tangential_model(*pair,
+                             ContactReport(*pair, *atom, *force, store_forces, list_contacts));
+  else
+    loop_of_tangential_model(*pair, NoReport());
+
+  if (list_contacts) pair->cpl_pair_finalize();
+  if (pair->storeContactForces()) pair->fix_contact_forces()->do_forward_comm();
+  if (pair->storeContactForcesStress()) pair->fix_contact_forces_stress()->do_forward_comm();
+}
+
+template <class Report>
+void PairGranCgm::loop_of_tangential_model(PairGran& pair, Report report) {
+  if (pair.list->inum == 0) return;
+  switch (settings_.tangential) {
+    case TangentialModel::off:
+      return loop<TangentialModel::off>(pair, report);
+    case TangentialModel::no_history:
+      return loop<TangentialModel::no_history>(pair, report);
+    case TangentialModel::history:
+      return loop<TangentialModel::history>(pair, report);
+  }
+}
+
+template <TangentialModel tangential, class Report>
+void PairGranCgm::loop(PairGran& pair, Report report) {
+  constexpr bool with_history = tangential == TangentialModel::history;
+  const Grains g(*atom);
+  const LAMMPS_NS::NeighList& list = *pair.list;
+  const int history_length = pair.dnum();
+  const bool apply = pair.computeflag();
+  const bool both_sides = force->newton_pair;
+  const TangentialStep step{apply && pair.shearupdate() ? History::advance : History::keep,
+                            update->dt};
+  LargestOverlap largest;
+
+  for (int ii = 0; ii < list.inum; ++ii) {
+    const int i = list.ilist[ii];
+    const Vec3 x_i = column(g.x, i), v_i = column(g.v, i), omega_i = column(g.omega, i);
+    const double r_i = g.radius[i];
+    const int* neighbours = list.firstneigh[i];
+    int* touching = with_history ? pair.listgranhistory->firstneigh[i] : nullptr;
+    double* histories = with_history ? pair.listgranhistory->firstdouble[i] : nullptr;
+    Vec3 f_i = Vec3::Zero(), torque_i = Vec3::Zero();
+
+    for (int jj = 0; jj < list.numneigh[i]; ++jj) {
+      const int j = neighbours[jj] & NEIGHMASK;
+      const Vec3 delta = x_i - column(g.x, j);
+      const double rsq = delta.squaredNorm();
+      const double r_sum = r_i + g.radius[j];
+      double* history = with_history ? histories + history_length * jj : nullptr;
+      if (rsq >= r_sum * r_sum) {
+        if (with_history && touching[jj]) {
+          touching[jj] &= ~contact_bits;
+          column(history + history_offset_, 0).setZero();
+        }
+        continue;
+      }
+      const double r = std::sqrt(rsq);
+      const double overlap = r_sum - r;
+      if (overlap > largest.length) largest.length = overlap;
+      if (overlap > largest.relative * r_sum) largest.relative = overlap / r_sum;
+
+      const Vec3 n = delta / r;
+      const double lever_i = r_i - 0.5 * overlap;
+      const double lever_j = g.radius[j] - 0.5 * overlap;
+      const ContactMotion motion =
+          contact_motion(v_i - column(g.v, j), lever_i * omega_i + lever_j * column(g.omega, j), n);
+      const ContactCoefficients c =
+          coefficients(contacts_(g.type[i], g.type[j]), pair_masses(pair, g, i, j));
+      const double f_n = normal_force(c, overlap, motion.normal_velocity);
+
+      Vec3 displacement = Vec3::Zero();
+      if (with_history) {
+        touching[jj] |= contact_bits;
+        displacement = column(history + history_offset_, 0);
+      }
+      const Vec3 f_t =
+          tangential_force<tangential>(c, f_n, n, motion.tangential_velocity, displacement, step);
+      if (with_history && step.history == History::advance)
+        column(history + history_offset_, 0) = displacement;
+
+      const Vec3 f = f_n * n + f_t;
+      const Vec3 moment = f_t.cross(n);
+      if (apply) {
+        f_i += f;
+        torque_i += lever_i * moment;
+        if (both_sides || j < g.local_count) {
+          const double relax_j = pair.relax(j);
+          column(g.f, j) -= relax_j * f;
+          column(g.torque, j) += (relax_j * lever_j) * moment;
+        }
+      }
+      report({i, j, delta.data(), n.data(), f, lever_i * moment, lever_j * moment, rsq, history});
+    }
+    const double relax_i = pair.relax(i);
+    column(g.f, i) += relax_i * f_i;
+    column(g.torque, i) += relax_i * torque_i;
+  }
+  if (apply) contact_statistics().note(largest);
+}
+
+}  // namespace gasgrain::plugins

@@ -1,0 +1,45 @@
+// `pair_style gran model cgm`: the coarse-grain contact law over LIGGGHTS's neighbour list.
+//
+// Implements the pair interface of LIGGGHTS directly instead of a stack of model templates: one
+// loop over the list, specialized for the tangential model. History is LIGGGHTS's own contact
+// history (three components, newton flag 1), cleared as soon as a pair separates.
+#pragma once
+
+#include <granular_pair_style.h>
+#include <pointers.h>
+
+#include "liggghts_plugins/contact_properties.hpp"
+#include "liggghts_plugins/contact_settings.hpp"
+
+namespace gasgrain::plugins {
+
+class PairGranCgm : public LIGGGHTS::PairStyles::IGranularPairStyle, protected LAMMPS_NS::Pointers {
+ public:
+  PairGranCgm(LAMMPS_NS::LAMMPS* liggghts, LAMMPS_NS::PairGran* parent, int64_t variant);
+  ~PairGranCgm() override;
+
+  void settings(int argument_count, char** arguments,
+                LIGGGHTS::IContactHistorySetup* history) override;
+  void init_granular() override;
+  void write_restart_settings(FILE* file) override;
+  void read_restart_settings(FILE* file, int64_t variant) override;
+  void compute_force(LAMMPS_NS::PairGran* pair, int eflag, int vflag, int addflag) override;
+  int get_history_offset(const std::string name) override;
+  double stressStrainExponent() override { return 1.0; }
+  int64_t hashcode() override { return variant_; }
+  bool contact_match(const std::string kind, const std::string model) override;
+
+ private:
+  template <TangentialModel tangential, class Report>
+  void loop(LAMMPS_NS::PairGran& pair, Report report);
+  template <class Report>
+  void loop_of_tangential_model(LAMMPS_NS::PairGran& pair, Report report);
+
+  LAMMPS_NS::PairGran* parent_;
+  int64_t variant_;
+  ContactSettings settings_;
+  int history_offset_ = -1;
+  GrainContactTable contacts_;
+};
+
+}  // namespace gasgrain::plugins

@@ -1,0 +1,31 @@
+#include "liggghts_plugins/register.hpp"
+
+#include "liggghts_plugins/coarse_grain_report.hpp"
+#include "liggghts_plugins/coarsegraining.h"
+#include "liggghts_plugins/contact_model_cgm.hpp"
+#include "liggghts_plugins/fix_wall_sdf.h"
+
+namespace gasgrain::plugins {
+
+void register_styles(LAMMPS_NS::LAMMPS& lmp) {
+  register_contact_model_cgm();
+  register_command(lmp, "coarsegraining", run_command<LAMMPS_NS::Coarsegraining>);
+  register_command(lmp, "run", run_with_report);
+  register_fix(lmp, "wall/sdf", create_fix<FixWallSdf>);
+  describe_plugin_styles();
+}
+
+void describe_plugin_styles() {
+  describe_style({"coarsegraining l1 [l2 ...] [model_check error|warn]",
+                  "coarse-grain ratio of each atom type, for stock models and ours",
+                  "docs/coarse_graining.md"});
+  describe_style({"pair_style gran model cgm tangential history [stiffness_exponent n]",
+                  "linear contact law of coarse grains, in properties of the original particle",
+                  "docs/script_commands.md"});
+  describe_style({"fix ID group wall/gran model cgm tangential history primitive|mesh ...",
+                  "the same law against the walls of stock LIGGGHTS", "docs/script_commands.md"});
+  describe_style({"fix ID group wall/sdf body FILE.h5 | case CASE.toml body NAME type T",
+                  "wall from a signed distance field", "docs/script_commands.md"});
+}
+
+}  // namespace gasgrain::plugins
