@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <sstream>
 
 #include "coupling/files/sdf_file.hpp"
 #include "coupling/shared/error.hpp"
@@ -127,12 +128,21 @@ void FixWallSdf::pre_neighbor() {
   candidates_.clear();
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
+    if (atom->radius[i] > body_.shape->resolved_range()) fail_unresolved(atom->radius[i]);
     const double reach = atom->radius[i] + neighbor->skin;
     if (body_.shape->distance(ConstColumn(atom->x[i])) < reach)
       candidates_.push_back(i);
     else
       displacement_[i].setZero();
   }
+}
+
+void FixWallSdf::fail_unresolved(double radius) const {
+  std::ostringstream message;
+  message << where_ << ": body '" << body_.name << "' is sampled with a band of "
+          << body_.shape->resolved_range() << " m, but a grain has a radius of " << radius
+          << " m; sample it with a band of at least the largest grain radius";
+  throw UserError(message.str());
 }
 
 void FixWallSdf::post_force(int) {
