@@ -19,6 +19,7 @@ CouplingOptions read_coupling_options(const ConfigTable& table, const cfd::GasPr
   options.gas_step = table.number_or("gas_step", 0.0, Range::positive());
   options.kernel_width = table.number_or("kernel_width", 0.0, Range::positive());
   options.average_from = table.number_or("average_from", 0.0, Range::non_negative());
+  options.series_interval = table.number_or("series_interval", 0.0, Range::positive());
   options.progress_interval = table.number_or("progress_interval", 0.0, Range::positive());
   options.case_name =
       table.text_or("case_name", std::filesystem::path(table.file()).stem().string());

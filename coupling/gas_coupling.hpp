@@ -30,7 +30,8 @@ class GasCoupling {
   const cfd::GasSolver& gas() const { return gas_; }
   const CouplingOptions& options() const { return options_; }
   const Deposition& deposition() const { return deposition_; }
-  double kernel_width() const { return kernel_width_; }  // m
+  const cfd::Field& void_fraction() const { return void_fraction_; }  // at the last exchange
+  double kernel_width() const { return kernel_width_; }               // m
 
  private:
   void send_grains_to_gas_ranks(std::span<const GrainRecord> grains);

@@ -1,0 +1,96 @@
+// A coupled simulation without its DEM code: exchanges, monitors, audit and output on one time
+// line.
+//
+// Protocol, all calls collective:
+//   begin()             once, in the set-up of the first run
+//   continue_run()      in the set-up of every later run
+//   force_applied(dt)   in every DEM step, after the held forces were added to the grains
+//   step_finished()     at the end of every DEM step; true when an exchange is due
+//   exchange()          when step_finished() said so
+//   finish_run()        at the end of every run
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "coupling/bed_monitor.hpp"
+#include "coupling/dem_host.hpp"
+#include "coupling/gas_coupling.hpp"
+#include "coupling/run_files.hpp"
+#include "coupling/run_statistics.hpp"
+#include "coupling/schedule.hpp"
+
+namespace gasgrain::coupling {
+
+// One line of timeseries.csv, and the vector output of fix couple/gas.
+struct SeriesRow {
+  double time = 0.0;
+  BedState bed;
+  double weight_over_area = 0.0;  // Pa
+  MomentumBalance balance;
+  double momentum_residual = 0.0;  // vertical, over the grains' weight
+  ExchangeReport exchange;
+  GrainTotals grains;
+  plugins::LargestOverlap overlap;
+};
+
+class CoupledRun {
+ public:
+  // `directory` overrides [output] directory unless it is empty. Throws UserError.
+  CoupledRun(const std::string& case_file, const std::string& directory, DemHost& host,
+             MPI_Comm communicator);
+
+  void begin(std::span<Vec3> forces);
+  bool begun() const { return begun_; }
+  void continue_run();
+  void force_applied(double dem_step);
+  bool step_finished();
+  void exchange(std::span<Vec3> forces);
+  void finish_run();
+
+  const GasCoupling& coupling() const { return coupling_; }
+  const RunStatistics& statistics() const { return statistics_; }
+  const SeriesRow& latest() const { return row_; }
+
+ private:
+  // What a case file states, read once.
+  struct Case {
+    cfd::GasCase gas;
+    CouplingOptions options;
+  };
+  static Case read_case(const std::string& case_file);
+
+  CoupledRun(const Case& settings, const std::string& directory, DemHost& host,
+             MPI_Comm communicator);
+  void start_clock();
+  void stop_dem_clock();
+  void observe_bed(const ExchangeReport& report);
+  void audit();
+  void choose_next_interval();
+  void write_outputs(double time);
+  void write_frame(double time);
+  WallTimes mean_wall_times() const;
+
+  Case case_;
+  DemHost& host_;
+  MPI_Comm communicator_;
+  GasCoupling coupling_;
+  BedMonitor monitor_;
+  MomentumAudit audit_;
+  RunStatistics statistics_;
+  std::unique_ptr<RunFiles> files_;  // null: no output directory
+  Schedule series_schedule_, frame_schedule_, progress_schedule_;
+  SeriesRow row_;
+
+  bool begun_ = false;
+  CouplingInterval interval_;
+  int steps_since_exchange_ = 0;
+  double elapsed_ = 0.0;               // s since the last exchange
+  Vec3 held_force_ = Vec3::Zero();     // N, sum over the grains
+  Vec3 applied_force_ = Vec3::Zero();  // the one in the integrator's present force
+  double last_frame_time_ = -1.0;      // s
+  double clock_ = 0.0;                 // wall time at the start of the part under way
+  double run_start_ = 0.0;
+};
+
+}  // namespace gasgrain::coupling

@@ -1,0 +1,58 @@
+// What a coupled run asks of the DEM code around it. Adapters implement it; nothing here knows
+// LIGGGHTS.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "coupling/grain_transfer.hpp"
+#include "coupling/momentum_audit.hpp"
+#include "liggghts_plugins/contact_statistics.hpp"
+
+namespace gasgrain::coupling {
+
+// The coupled grains of this rank as they appear in files.
+struct GrainState {
+  std::vector<double> positions, velocities;  // x y z of each grain, m and m/s
+  std::vector<double> radii;                  // m
+  std::vector<double> types;
+  std::vector<std::int64_t> ids;
+};
+
+// Steps of the present run.
+struct RunProgress {
+  long done = 0;
+  long total = 0;
+};
+
+// Range of a property over the coupled grains of all ranks.
+struct GrainSizes {
+  double smallest_diameter = 0.0, largest_diameter = 0.0;  // m
+  double smallest_original = 0.0, largest_original = 0.0;  // d0, m
+};
+
+class DemHost {
+ public:
+  virtual ~DemHost() = default;
+
+  virtual double step() const = 0;   // s
+  virtual Vec3 gravity() const = 0;  // m/s^2
+  virtual RunProgress progress() const = 0;
+  // IDs of walls whose force nobody measures.
+  virtual std::vector<std::string> unmeasured_walls() const = 0;
+
+  virtual std::vector<GrainRecord> records() const = 0;  // coupled grains of this rank
+  virtual GrainState grain_state() const = 0;            // the same grains
+
+  // Collective.
+  virtual GrainTotals totals() const = 0;
+  virtual GrainSizes sizes() const = 0;
+  virtual Vec3 take_wall_impulse() = 0;  // of the walls on the grains since the last call, N s
+  virtual plugins::LargestOverlap take_largest_overlap() = 0;  // since the last call
+
+  // Prints text for the user, once (on one rank); other ranks' calls do nothing.
+  virtual void print(const std::string& text) = 0;
+};
+
+}  // namespace gasgrain::coupling

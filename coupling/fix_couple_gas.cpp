@@ -1,0 +1,300 @@
+#include "coupling/fix_couple_gas.h"
+
+#include <atom.h>
+#include <comm.h>
+#include <domain.h>
+#include <fix_gravity.h>
+#include <force.h>
+#include <modify.h>
+#include <update.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+
+#include "coupling/shared/error.hpp"
+#include "liggghts_plugins/grain_wall.hpp"
+
+namespace gasgrain::coupling {
+
+namespace {
+
+Vec3 column(const double* values) {
+  return {values[0], values[1], values[2]};
+}
+
+struct Arguments {
+  std::string case_file, directory;
+};
+
+Arguments read_arguments(int count, char** arguments) {
+  const std::string usage = std::string("fix ") + arguments[0] + " couple/gas: ";
+  Arguments result;
+  for (int n = 3; n < count; n += 2) {
+    const std::string key = arguments[n];
+    if (key != "case" && key != "out") {
+      throw UserError(usage + "unknown keyword '" + key + "'; known are: case CASE.toml, out DIR");
+    }
+    if (n + 1 >= count) throw UserError(usage + "keyword '" + key + "' needs a value");
+    (key == "case" ? result.case_file : result.directory) = arguments[n + 1];
+  }
+  if (result.case_file.empty()) {
+    throw UserError(usage +
+                    "no case file; write: fix ID group couple/gas case CASE.toml [out DIR]");
+  }
+  return result;
+}
+
+}  // namespace
+
+FixCoupleGas::FixCoupleGas(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char** arguments)
+    : Fix(liggghts, argument_count, arguments) {
+  const Arguments given = read_arguments(argument_count, arguments);
+  check_host(std::string("fix ") + id + " couple/gas: ");
+  nevery = 1;
+  create_attribute = 1;
+  vector_flag = 1;
+  size_vector = 10;
+  global_freq = 1;
+  extvector = 0;
+  MPI_Comm_dup(world, &communicator_);
+  DemHost& host = *this;
+  run_ = std::make_unique<CoupledRun>(given.case_file, given.directory, host, communicator_);
+  grow_arrays(atom->nmax);
+  atom->add_callback(0);
+}
+
+FixCoupleGas::~FixCoupleGas() {
+  atom->delete_callback(id, 0);
+  run_.reset();
+  MPI_Comm_free(&communicator_);
+}
+
+void FixCoupleGas::check_host(const std::string& where) const {
+  if (std::strcmp(update->unit_style, "si") != 0) {
+    throw UserError(where + "units are '" + update->unit_style + "', but must be 'si'");
+  }
+  if (!atom->radius_flag || !atom->rmass_flag) {
+    throw UserError(where + "needs grains with radius and mass; use atom_style granular");
+  }
+  if (domain->triclinic) throw UserError(where + "needs an orthogonal box, not a triclinic one");
+}
+
+int FixCoupleGas::setmask() {
+  return LAMMPS_NS::FixConst::POST_FORCE | LAMMPS_NS::FixConst::END_OF_STEP;
+}
+
+void FixCoupleGas::setup(int) {
+  if (run_->begun()) {
+    run_->continue_run();
+  } else {
+    std::vector<Vec3> forces(records().size(), Vec3::Zero());
+    run_->begin(forces);
+    hold(forces);
+  }
+  add_held_forces();
+}
+
+void FixCoupleGas::post_force(int) {
+  add_held_forces();
+  run_->force_applied(update->dt);
+}
+
+void FixCoupleGas::end_of_step() {
+  if (!run_->step_finished()) return;
+  std::vector<Vec3> forces(atom->nlocal, Vec3::Zero());
+  run_->exchange(forces);
+  hold(forces);
+}
+
+void FixCoupleGas::post_run() {
+  run_->finish_run();
+}
+
+double FixCoupleGas::compute_vector(int index) {
+  const SeriesRow& row = run_->latest();
+  switch (index) {
+    case 0:
+      return row.time;
+    case 1:
+      return row.bed.pressure_drop;
+    case 2:
+      return row.bed.height;
+    case 3:
+      return row.weight_over_area;
+    case 4:
+      return row.exchange.interval;
+    case 5:
+      return row.momentum_residual;
+    case 6:
+      return row.exchange.third_law_residual;
+    case 7:
+      return row.exchange.solid_volume_residual;
+    case 8:
+      return row.exchange.divergence;
+    default:
+      return double(row.exchange.grains_outside);
+  }
+}
+
+template <class Visit>
+void FixCoupleGas::for_each_grain(Visit&& visit) const {
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (atom->mask[i] & groupbit) visit(i);
+  }
+}
+
+void FixCoupleGas::hold(const std::vector<Vec3>& forces) {
+  std::fill(held_.begin(), held_.end(), Vec3::Zero());
+  std::size_t n = 0;
+  for_each_grain([&](int i) { held_[i] = forces[n++]; });
+}
+
+void FixCoupleGas::add_held_forces() {
+  for_each_grain([&](int i) {
+    for (int d = 0; d < 3; ++d) atom->f[i][d] += held_[i][d];
+  });
+}
+
+GasForce FixCoupleGas::gas_force(int local_index) const {
+  return {.held = held_[local_index]};
+}
+
+void FixCoupleGas::grow_arrays(int count) {
+  held_.resize(count, Vec3::Zero());
+}
+void FixCoupleGas::copy_arrays(int from, int to, int) {
+  held_[to] = held_[from];
+}
+void FixCoupleGas::set_arrays(int i) {
+  held_[i].setZero();
+}
+
+int FixCoupleGas::pack_exchange(int i, double* buffer) {
+  for (int d = 0; d < 3; ++d) buffer[d] = held_[i][d];
+  return 3;
+}
+
+int FixCoupleGas::unpack_exchange(int i, double* buffer) {
+  held_[i] = column(buffer);
+  return 3;
+}
+
+double FixCoupleGas::memory_usage() {
+  return double(held_.size() * sizeof(Vec3));
+}
+
+double FixCoupleGas::step() const {
+  return update->dt;
+}
+
+Vec3 FixCoupleGas::gravity() const {
+  Vec3 sum = Vec3::Zero();
+  for (int n = 0; n < modify->nfix; ++n) {
+    if (!modify->fix[n] || std::strcmp(modify->fix[n]->style, "gravity") != 0) continue;
+    double acceleration[3];
+    static_cast<LAMMPS_NS::FixGravity*>(modify->fix[n])->get_gravity(acceleration);
+    sum += column(acceleration);
+  }
+  return sum;
+}
+
+RunProgress FixCoupleGas::progress() const {
+  return {.done = static_cast<long>(update->ntimestep - update->firststep),
+          .total = static_cast<long>(update->laststep - update->firststep)};
+}
+
+std::vector<std::string> FixCoupleGas::unmeasured_walls() const {
+  std::vector<std::string> result;
+  const std::vector<plugins::GrainWall*> measured = plugins::grain_walls(*lmp);
+  for (int n = 0; n < modify->nfix; ++n) {
+    const Fix* fix = modify->fix[n];
+    if (!fix || std::strncmp(fix->style, "wall/", 5) != 0) continue;
+    const bool known = std::any_of(measured.begin(), measured.end(),
+                                   [&](const auto* wall) { return wall->wall_name() == fix->id; });
+    if (!known) result.push_back(fix->id);
+  }
+  return result;
+}
+
+std::vector<GrainRecord> FixCoupleGas::records() const {
+  std::vector<GrainRecord> result;
+  result.reserve(atom->nlocal);
+  for_each_grain([&](int i) {
+    const double radius = atom->radius[i];
+    result.push_back({.position = column(atom->x[i]),
+                      .velocity = column(atom->v[i]),
+                      .volume = 4.0 / 3.0 * M_PI * radius * radius * radius,
+                      .mass = atom->rmass[i],
+                      .original_diameter = 2.0 * radius / force->cg(atom->type[i])});
+  });
+  return result;
+}
+
+GrainState FixCoupleGas::grain_state() const {
+  GrainState state;
+  for_each_grain([&](int i) {
+    for (int d = 0; d < 3; ++d) {
+      state.positions.push_back(atom->x[i][d]);
+      state.velocities.push_back(atom->v[i][d]);
+    }
+    state.radii.push_back(atom->radius[i]);
+    state.types.push_back(atom->type[i]);
+    state.ids.push_back(atom->tag[i]);
+  });
+  return state;
+}
+
+GrainTotals FixCoupleGas::totals() const {
+  double sums[6] = {};  // count, mass, momentum, kinetic energy
+  for_each_grain([&](int i) {
+    const double mass = atom->rmass[i];
+    const Vec3 velocity = column(atom->v[i]);
+    sums[0] += 1;
+    sums[1] += mass;
+    for (int d = 0; d < 3; ++d) sums[2 + d] += mass * velocity[d];
+    sums[5] += 0.5 * mass * velocity.squaredNorm();
+  });
+  MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, communicator_);
+  return {std::lround(sums[0]), sums[1], {sums[2], sums[3], sums[4]}, sums[5]};
+}
+
+GrainSizes FixCoupleGas::sizes() const {
+  const double none = -std::numeric_limits<double>::infinity();
+  double largest[4] = {none, none, none, none};  // -smallest and largest diameter, the same of d0
+  for_each_grain([&](int i) {
+    const double diameter = 2.0 * atom->radius[i];
+    const double original = diameter / force->cg(atom->type[i]);
+    const double values[] = {-diameter, diameter, -original, original};
+    for (int n = 0; n < 4; ++n) largest[n] = std::max(largest[n], values[n]);
+  });
+  MPI_Allreduce(MPI_IN_PLACE, largest, 4, MPI_DOUBLE, MPI_MAX, communicator_);
+  if (largest[1] == none) return {};
+  return {-largest[0], largest[1], -largest[2], largest[3]};
+}
+
+Vec3 FixCoupleGas::take_wall_impulse() {
+  Vec3 sum = Vec3::Zero();
+  for (plugins::GrainWall* wall : plugins::grain_walls(*lmp)) sum -= wall->take_impulse();
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, communicator_);
+  return sum;
+}
+
+plugins::LargestOverlap FixCoupleGas::take_largest_overlap() {
+  const plugins::LargestOverlap mine = plugins::contact_statistics().take();
+  double largest[2] = {mine.length, mine.relative};
+  MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, communicator_);
+  return {.length = largest[0], .relative = largest[1]};
+}
+
+// To the terminal even when LIGGGHTS's own output goes elsewhere (-screen), and to the log file.
+void FixCoupleGas::print(const std::string& text) {
+  if (comm->me != 0) return;
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+  if (logfile) std::fputs(text.c_str(), logfile);
+}
+
+}  // namespace gasgrain::coupling

@@ -1,0 +1,74 @@
+// fix ID group couple/gas case CASE.toml [out DIR]
+//
+// Couples the grains of the group with the gas of the case file: docs/coupling.md. A thin adapter
+// of coupling/coupled_run.hpp to LIGGGHTS. The gas force on each grain is held between exchanges
+// and moves with the atom from rank to rank.
+//
+// Vector output f_ID[1..10]: time of the gas (s), pressure drop (Pa), bed height (m), weight over
+// area (Pa), interval between exchanges (s), vertical momentum residual over the weight, residual
+// of the drag exchange, of the solid volume, of continuity, grains outside the gas grid.
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(couple/gas,gasgrain::coupling::FixCoupleGas)
+// clang-format on
+#else
+#pragma once
+
+#include <fix.h>
+
+#include <memory>
+#include <vector>
+
+#include "coupling/coupled_run.hpp"
+#include "coupling/shared/gas_force.hpp"
+
+namespace gasgrain::coupling {
+
+class FixCoupleGas : public LAMMPS_NS::Fix, public GasForceSource, private DemHost {
+ public:
+  FixCoupleGas(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char** arguments);
+  ~FixCoupleGas() override;
+
+  int setmask() override;
+  void setup(int vflag) override;
+  void post_force(int vflag) override;
+  void end_of_step() override;
+  void post_run() override;
+  double compute_vector(int index) override;
+
+  // The held force moves, is sorted and exchanged with the atom.
+  void grow_arrays(int count) override;
+  void copy_arrays(int from, int to, int) override;
+  void set_arrays(int i) override;
+  int pack_exchange(int i, double* buffer) override;
+  int unpack_exchange(int i, double* buffer) override;
+  double memory_usage() override;
+
+  GasForce gas_force(int local_index) const override;
+
+ private:
+  double step() const override;
+  Vec3 gravity() const override;
+  RunProgress progress() const override;
+  std::vector<std::string> unmeasured_walls() const override;
+  std::vector<GrainRecord> records() const override;
+  GrainState grain_state() const override;
+  GrainTotals totals() const override;
+  GrainSizes sizes() const override;
+  Vec3 take_wall_impulse() override;
+  plugins::LargestOverlap take_largest_overlap() override;
+  void print(const std::string& text) override;
+
+  void check_host(const std::string& where) const;
+  template <class Visit>
+  void for_each_grain(Visit&& visit) const;
+  void hold(const std::vector<Vec3>& forces);
+  void add_held_forces();
+
+  MPI_Comm communicator_ = MPI_COMM_NULL;
+  std::unique_ptr<CoupledRun> run_;
+  std::vector<Vec3> held_;  // N, per local atom
+};
+
+}  // namespace gasgrain::coupling
+#endif

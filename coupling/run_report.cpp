@@ -1,0 +1,255 @@
+#include "coupling/run_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <limits>
+
+namespace gasgrain::coupling {
+
+namespace {
+
+std::string percent_shares(const WallTimes& times) {
+  const double percent = 100.0 / std::max(times.total(), 1e-30);
+  return text("DEM %.0f %%, coupling %.0f %%, gas %.0f %%", times.dem * percent,
+              times.coupling * percent, times.gas * percent);
+}
+
+std::string duration(double seconds) {
+  if (!std::isfinite(seconds)) return "?";
+  const long s = std::lround(seconds);
+  if (s < 60) return text("%ld s", s);
+  if (s < 3600) return text("%ld min %02ld s", s / 60, s % 60);
+  return text("%ld h %02ld min", s / 3600, s / 60 % 60);
+}
+
+std::string with_interval(const TimeMean& mean, double scale, const char* unit) {
+  if (std::isnan(mean.value)) return "not reached: the run ended before coupling.average_from";
+  std::string result = text("%.4g", mean.value * scale);
+  if (mean.half_width) result += text(" +- %.2g", *mean.half_width * scale);
+  return result + " " + unit + (mean.half_width ? " (95 % of batch means)" : "");
+}
+
+}  // namespace
+
+std::string text(const char* format, ...) {
+  va_list arguments, again;
+  va_start(arguments, format);
+  va_copy(again, arguments);
+  std::string result(std::vsnprintf(nullptr, 0, format, arguments), '\0');
+  std::vsnprintf(result.data(), result.size() + 1, format, again);
+  va_end(again);
+  va_end(arguments);
+  return result;
+}
+
+BedMeans bed_means(const RunStatistics& statistics, const BedMonitor& monitor, double from) {
+  BedMeans means;
+  means.from = from;
+  means.to = statistics.height.empty() ? from : statistics.height.back().time;
+  means.height = batch_mean(statistics.height, from);
+  means.pressure_drop = batch_mean(statistics.pressure_drop, from);
+  const double weight = batch_mean(statistics.weight, from).value;
+  means.weight_over_area = weight / monitor.cross_section();
+  means.static_estimate =
+      weight * means.height.value / monitor.open_volume_below(means.height.value);
+  return means;
+}
+
+std::string scene_text(const Scene& scene) {
+  const cfd::Grid& grid = scene.gas.grid;
+  const Vec3 spacing = grid.spacing() * 1e3;
+  const SmoothingPlan& plan = scene.coupling.deposition().plan();
+  const IntervalLimits& limits = scene.report.limits;
+  const GrainSizes& sizes = scene.sizes;
+  std::string out = "\nGas and grains (fix couple/gas)\n";
+  out += text("  grid           %d x %d x %d cells of %.4g x %.4g x %.4g mm\n", grid.cells[0],
+              grid.cells[1], grid.cells[2], spacing[0], spacing[1], spacing[2]);
+  out += text("  gas            %.4g kg/m^3, %.4g Pa s, %.4g %.4g %.4g m/s^2\n",
+              scene.gas.gas.density, scene.gas.gas.viscosity, scene.gas.gas.gravity[0],
+              scene.gas.gas.gravity[1], scene.gas.gas.gravity[2]);
+  out += text("  grains         %ld in the grid, %ld outside (no gas force there)\n",
+              scene.report.grains_inside, scene.report.grains_outside);
+  if (sizes.largest_diameter > 0) {
+    out += text("  diameter       %.4g to %.4g mm, of the original particles %.4g to %.4g mm\n",
+                sizes.smallest_diameter * 1e3, sizes.largest_diameter * 1e3,
+                sizes.smallest_original * 1e3, sizes.largest_original * 1e3);
+    out += text("  grain ratio l  %.4g to %.4g; %.3g cells per largest grain diameter\n",
+                sizes.smallest_diameter / sizes.smallest_original,
+                sizes.largest_diameter / sizes.largest_original,
+                sizes.largest_diameter * 1e3 / spacing.maxCoeff());
+  }
+  out += text("  drag           %s on the original diameter, %s\n", scene.options.drag_name.c_str(),
+              scene.options.feedback == Feedback::two_way ? "two-way" : "one-way");
+  out += text("  kernel         standard deviation %.4g mm, %d smoothing sweeps\n",
+              scene.coupling.kernel_width() * 1e3, plan.sweeps);
+  out += text("  exchange       every %d DEM steps of %.4g s = %.4g s, limited by %s\n",
+              scene.interval.dem_steps, scene.dem_step, scene.interval.dem_steps * scene.dem_step,
+              scene.interval.limited_by.c_str());
+  out += text(
+      "  limits         grain motion %.3g s, drag (5 %% of its stability limit) %.3g s, gas "
+      "%.3g s\n",
+      limits.grain_motion, 0.05 * limits.exchange, limits.gas);
+  for (const std::string& wall : scene.unmeasured_walls) {
+    out += text(
+        "  note           nobody measures the force of wall fix %s: it will show as "
+        "residual of the momentum balance\n",
+        wall.c_str());
+  }
+  if (!scene.gas.gas.gravity.isZero() && !scene.gas.gas.gravity.isApprox(scene.gravity, 1e-6)) {
+    out += text(
+        "  note           gravity of the gas differs from that of the grains, "
+        "%.6g %.6g %.6g m/s^2\n",
+        scene.gravity[0], scene.gravity[1], scene.gravity[2]);
+  }
+  out += "  files          " + (scene.directory.empty() ? "none" : scene.directory) + "\n\n";
+  return out;
+}
+
+std::string progress_text(const SeriesRow& row, const WallTimes& times, const RunProgress& progress,
+                          double elapsed) {
+  const double share = progress.total > 0 ? double(progress.done) / double(progress.total) : 1.0;
+  const double remaining =
+      share > 0 ? elapsed * (1 - share) / share : std::numeric_limits<double>::infinity();
+  std::string out =
+      text("t %.4f s  %3.0f %%  %s left | dp %.1f Pa  bed %.2f mm  overlap %.2g %% | ", row.time,
+           100 * share, duration(remaining).c_str(), row.bed.pressure_drop, row.bed.height * 1e3,
+           100 * row.overlap.relative);
+  out += percent_shares(times);
+  if (row.exchange.grains_outside > 0) {
+    out += text(" | %ld grains outside the gas grid", row.exchange.grains_outside);
+  }
+  if (row.exchange.limited > 0) {
+    out += text(" | void fraction limited for %ld grains", row.exchange.limited);
+  }
+  return out + "\n";
+}
+
+std::string closing_text(const SeriesRow& row, const RunStatistics& statistics,
+                         const WallTimes& times, const BedMeans& means) {
+  const RunExtremes& extremes = statistics.extremes;
+  std::string out = "\nGas and grains: result\n";
+  out += text(
+      "  simulated            %.4f s of gas in %ld exchanges of %.3g to %.3g s, %ld gas steps, "
+      "%.3g pressure iterations each\n",
+      row.time, extremes.exchanges, extremes.shortest_interval, extremes.longest_interval,
+      extremes.gas_steps,
+      double(extremes.pressure_iterations) / double(std::max(extremes.gas_steps, 1L)));
+  out += text("  averaged             from %.4g to %.4g s\n", means.from, means.to);
+  out += "  bed height           " + with_interval(means.height, 1e3, "mm") + "\n";
+  out += "  pressure drop        " + with_interval(means.pressure_drop, 1.0, "Pa") + "\n";
+  if (!std::isnan(means.pressure_drop.value)) {
+    out += text("    weight over area   %.4g Pa; measured is %.4g times that\n",
+                means.weight_over_area, means.pressure_drop.value / means.weight_over_area);
+    out += text(
+        "    with bodies        %.4g Pa (weight over the open volume below the bed height "
+        "times height); measured is %.4g times that\n",
+        means.static_estimate, means.pressure_drop.value / means.static_estimate);
+  }
+  out += text("  vertical momentum    largest residual %.2g of the weight\n",
+              extremes.momentum_residual);
+  out += text("  gas-grain exchange   drag residual %.2g, pressure force residual %.2g\n",
+              extremes.third_law_residual, extremes.pressure_residual);
+  out +=
+      text("  solid volume         largest residual %.2g; smallest void fraction of a cell %.3g\n",
+           extremes.solid_volume_residual, extremes.smallest_void_fraction);
+  out += text("  continuity           largest divergence %.2g, removed mean %.2g\n",
+              extremes.divergence, extremes.removed_mean);
+  out += text("  largest overlap      %.3g um, %.3g %% of the grain diameter\n",
+              extremes.overlap.length * 1e6, 100 * extremes.overlap.relative);
+  out += text("  closure limited      %ld times; at most %ld grains outside the gas grid\n",
+              extremes.limited, extremes.grains_outside);
+  out += text("  wall time            %s: %s (%.3g + %.3g + %.3g s)\n",
+              duration(times.total()).c_str(), percent_shares(times).c_str(), times.dem,
+              times.coupling, times.gas);
+  out += text("  speed                %.4g grain-steps per second\n\n",
+              statistics.grain_steps / std::max(times.total(), 1e-30));
+  return out;
+}
+
+std::vector<NamedValue> series_values(const SeriesRow& row, int axis) {
+  const ExchangeReport& exchange = row.exchange;
+  const MomentumBalance& balance = row.balance;
+  const double per_time = balance.interval > 0 ? 1.0 / balance.interval : 0.0;
+  return {{"time", row.time},
+          {"pressure_drop", row.bed.pressure_drop},
+          {"bed_height", row.bed.height},
+          {"weight_over_area", row.weight_over_area},
+          {"momentum_residual", row.momentum_residual},
+          {"grain_momentum_rate", balance.grain_change[axis] * per_time},
+          {"gas_momentum_rate", balance.gas_change[axis] * per_time},
+          {"side_pressure_force", balance.side_pressure[axis] * per_time},
+          {"grain_weight", balance.grain_weight[axis] * per_time},
+          {"gas_weight", balance.gas_weight[axis] * per_time},
+          {"walls_on_grains", balance.walls_on_grains[axis] * per_time},
+          {"bodies_on_gas", balance.bodies_on_gas[axis] * per_time},
+          {"walls_by_drag", balance.walls_by_drag[axis] * per_time},
+          {"gas_through_sides", balance.gas_through_sides[axis] * per_time},
+          {"in_transit", balance.in_transit[axis] * per_time},
+          {"third_law_residual", exchange.third_law_residual},
+          {"pressure_force_residual", exchange.pressure_residual},
+          {"solid_volume_residual", exchange.solid_volume_residual},
+          {"divergence", exchange.divergence},
+          {"removed_mean", exchange.removed_mean},
+          {"smallest_void_fraction", exchange.smallest_void_fraction},
+          {"limited_closures", double(exchange.limited)},
+          {"grains_inside", double(exchange.grains_inside)},
+          {"grains_outside", double(exchange.grains_outside)},
+          {"kinetic_energy", row.grains.kinetic_energy},
+          {"largest_overlap", row.overlap.length},
+          {"largest_relative_overlap", row.overlap.relative},
+          {"interval", exchange.interval},
+          {"gas_steps", double(exchange.gas_steps)},
+          {"pressure_iterations", double(exchange.pressure_iterations)}};
+}
+
+std::vector<Quantity> summary_quantities(const RunStatistics& statistics, const WallTimes& times,
+                                         const BedMeans& means) {
+  const RunExtremes& extremes = statistics.extremes;
+  const auto half_width = [](const TimeMean& mean) {
+    return mean.half_width.value_or(std::numeric_limits<double>::quiet_NaN());
+  };
+  const std::string batches = "95 % interval of ten batch means";
+  return {
+      {"bed_height_mean",
+       means.height.value,
+       "m",
+       {},
+       {},
+       "time mean of the level where the layer-averaged void fraction crosses 0.8"},
+      {"bed_height_half_width", half_width(means.height), "m", {}, {}, batches},
+      {"pressure_drop_mean", means.pressure_drop.value, "Pa", means.static_estimate, 0.05,
+       "pressure_drop_force_balance"},
+      {"pressure_drop_half_width", half_width(means.pressure_drop), "Pa", {}, {}, batches},
+      {"pressure_drop_force_balance",
+       means.static_estimate,
+       "Pa",
+       {},
+       {},
+       "weight x mean bed height / open volume below it"},
+      {"pressure_drop_weight_over_area", means.weight_over_area, "Pa", {}, {}, "weight / area"},
+      {"average_from", means.from, "s", {}, {}, "start of the time means"},
+      {"average_to", means.to, "s", {}, {}, "end of the time means"},
+      {"momentum_balance_residual", extremes.momentum_residual, "-", 0.0, 0.005,
+       "vertical balance of gas and grains over the weight, largest of all intervals"},
+      {"third_law_residual", extremes.third_law_residual, "-", 0.0, 1e-12,
+       "drag on grains against drag on gas, over the sum of magnitudes"},
+      {"solid_volume_residual", extremes.solid_volume_residual, "-", 0.0, 1e-10,
+       "solid volume in the cells against the grains'"},
+      {"divergence_residual", extremes.divergence, "-", {}, {}, "largest of a cell, over its void"},
+      {"overlap_max", extremes.overlap.relative, "-", {}, {}, "over the grain diameter"},
+      {"overlap_max_length", extremes.overlap.length, "m", {}, {}, "the same as a length"},
+      {"exchange_interval_max", extremes.longest_interval, "s", {}, {}, "between gas and grains"},
+      {"time_dem", times.dem, "s", {}, {}, "wall time, mean over ranks"},
+      {"time_coupling", times.coupling, "s", {}, {}, "wall time, mean over ranks"},
+      {"time_gas", times.gas, "s", {}, {}, "wall time, mean over ranks"},
+      {"grain_steps_per_second",
+       statistics.grain_steps / std::max(times.total(), 1e-30),
+       "1/s",
+       {},
+       {},
+       "all wall time"}};
+}
+
+}  // namespace gasgrain::coupling

@@ -1,0 +1,49 @@
+// What a coupled run remembers from exchange to exchange for its time means and closing table.
+#pragma once
+
+#include <vector>
+
+#include "coupling/batch_means.hpp"
+#include "coupling/momentum_audit.hpp"
+#include "liggghts_plugins/contact_statistics.hpp"
+
+namespace gasgrain::coupling {
+
+// The bed at one exchange.
+struct BedState {
+  double time = 0.0;           // s
+  double height = 0.0;         // m
+  double pressure_drop = 0.0;  // Pa
+  double weight = 0.0;         // of the grains in the gas, N
+};
+
+// Wall time of this rank by part, s.
+struct WallTimes {
+  double dem = 0.0, coupling = 0.0, gas = 0.0;
+  double total() const { return dem + coupling + gas; }
+};
+
+// Largest values (and a few sums) over the whole run.
+struct RunExtremes {
+  long exchanges = 0, gas_steps = 0, pressure_iterations = 0, limited = 0, grains_outside = 0;
+  double shortest_interval = 0.0, longest_interval = 0.0;  // s
+  double third_law_residual = 0.0, pressure_residual = 0.0, solid_volume_residual = 0.0;
+  double divergence = 0.0, removed_mean = 0.0;
+  double momentum_residual = 0.0;  // vertical, over the weight; audited intervals
+  plugins::LargestOverlap overlap;
+  double smallest_void_fraction = 1.0;
+
+  void note(const ExchangeReport& report);
+};
+
+struct RunStatistics {
+  RunExtremes extremes;
+  std::vector<TimedSample> height, pressure_drop, weight;  // samples at exchanges
+  double last_momentum_residual = 0.0;
+  double grain_steps = 0.0;  // grains times DEM steps
+  WallTimes wall_times;
+
+  void note(const BedState& bed, const ExchangeReport& report);
+};
+
+}  // namespace gasgrain::coupling

@@ -1,0 +1,28 @@
+// When the next output is due, in simulated time.
+#pragma once
+
+#include <cmath>
+
+namespace gasgrain::coupling {
+
+class Schedule {
+ public:
+  // Due once per `interval` [s] of simulated time; 0: at every call.
+  explicit Schedule(double interval) : interval_(interval) {}
+
+  // True at most once per interval: at the first call at or after its end.
+  bool due(double time) {
+    if (interval_ <= 0) return true;
+    const double intervals =
+        std::floor(time / interval_ * (1 + 1e-9));  // rounding of sums of steps
+    if (intervals <= done_) return false;
+    done_ = intervals;
+    return true;
+  }
+
+ private:
+  double interval_;
+  double done_ = 0;  // whole intervals passed
+};
+
+}  // namespace gasgrain::coupling
