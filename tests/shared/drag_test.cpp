@@ -1,0 +1,134 @@
+#include "coupling/shared/drag.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/shared/error.hpp"
+
+namespace gasgrain {
+namespace {
+
+// Air of the reference values: they follow to all printed digits with this density, viscosity,
+// g = 9.81 m/s^2 and buoyancy.
+constexpr double rho = 1.0, mu = 1.8e-5, g = 9.81;
+
+struct Powder {
+  double diameter, density;
+  double terminal_velocity;     // m/s
+  double minimum_fluidization;  // mm/s at void fraction 0.40
+};
+constexpr Powder powders[] = {
+    {100e-6, 2500, .5686, 9.7}, {180e-6, 1516, .8885, 19.0}, {100e-6, 1483, .3613, 5.7}};
+
+double drag(double void_fraction, double diameter, double slip) {
+  return drag_gidaspow({void_fraction, diameter, slip, rho, mu});
+}
+
+// Root of an increasing function between 0 and 10.
+template <class Function>
+double root(const Function& f) {
+  double low = 0, high = 10;
+  for (int n = 0; n < 100; ++n) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) < 0 ? low : high) = middle;
+  }
+  return low;
+}
+
+TEST(DragGidaspow, IsErgunInADenseBed) {
+  // eps 0.4, d 1 mm, slip 0.5 m/s, by hand: 150 * 0.6 * 1.8e-5 / (0.4 * 1e-6) = 4050 and
+  // 1.75 * 1 * 0.5 / 1e-3 = 875
+  EXPECT_NEAR(drag(0.4, 1e-3, 0.5), 4925.0, 1e-9);
+  EXPECT_NEAR(drag(0.8, 1e-3, 0.0), 150 * 0.2 * 1.8e-5 / (0.8 * 1e-6), 1e-9);
+}
+
+TEST(DragGidaspow, IsWenYuInADiluteFlow) {
+  // the printed form 3/4 C_D rho |u-v| eps / d0 eps^-2.65 with Re = 0.9 * 0.5 * 1e-4 / 1.8e-5 = 2.5
+  const double reynolds = 2.5;
+  const double drag_coefficient = 24 / reynolds * (1 + 0.15 * std::pow(reynolds, 0.687));
+  EXPECT_NEAR(drag(0.9, 1e-4, 0.5),
+              0.75 * drag_coefficient * 0.5 * 0.9 / 1e-4 * std::pow(0.9, -2.65), 1e-6);
+}
+
+TEST(DragGidaspow, HasConstantDragCoefficientAtHighReynolds) {
+  // Re = 0.9 * 10 * 0.01 / 1.8e-5 = 5000
+  EXPECT_NEAR(drag(0.9, 1e-2, 10.0), 0.75 * 0.44 * 10 * 0.9 / 1e-2 * std::pow(0.9, -2.65), 1e-9);
+}
+
+TEST(DragGidaspow, ReducesToStokesForASingleSlowSphere) {
+  for (const double diameter : {1e-5, 1e-4, 1e-3}) {
+    const double stokes = 18 * mu / (diameter * diameter);
+    EXPECT_DOUBLE_EQ(drag(1.0, diameter, 0.0), stokes);
+    const double slip = 1e-9 * mu / (rho * diameter);
+    EXPECT_NEAR(drag(1.0, diameter, slip) / stokes, 1.0, 1e-6);
+  }
+}
+
+TEST(DragGidaspow, GrowsWithSlipAndSolids) {
+  double before = 0;
+  for (double slip = 0; slip < 3; slip += 0.01) {
+    EXPECT_GE(drag(0.95, 180e-6, slip), before);
+    before = drag(0.95, 180e-6, slip);
+  }
+  for (double eps = 0.82; eps < 0.99; eps += 0.01) {
+    EXPECT_GT(drag(eps, 180e-6, 0.1), drag(eps + 0.01, 180e-6, 0.1));
+  }
+}
+
+TEST(DragGidaspow, GivesTheTerminalVelocities) {
+  for (const Powder& p : powders) {
+    const double velocity =
+        root([&](double v) { return drag(1.0, p.diameter, v) * v - (p.density - rho) * g; });
+    EXPECT_NEAR(velocity, p.terminal_velocity, 0.0001) << p.diameter << " " << p.density;
+  }
+}
+
+TEST(DragGidaspow, GivesTheMinimumFluidizationVelocities) {
+  for (const Powder& p : powders) {
+    // model A in a bed at rest: eps dp/dx = beta slip, and the bed floats when dp/dx carries
+    // (1-eps)(rho_s - rho) g; slip = U / eps
+    const double velocity = root([&](double superficial) {
+      const double slip = superficial / 0.4;
+      return drag(0.4, p.diameter, slip) * slip / 0.4 - (p.density - rho) * g;
+    });
+    EXPECT_NEAR(1e3 * velocity, p.minimum_fluidization, 0.06);
+  }
+}
+
+TEST(DragGidaspow, GivesTheFallingVelocityOfAPlug) {
+  const auto velocity = [](double diameter, double density, double eps) {
+    return g * eps * eps * density / drag(eps, diameter, 0.0);
+  };
+  EXPECT_NEAR(1e3 * velocity(180e-6, 1516, .4122), 21.3, 0.05);
+  EXPECT_NEAR(1e3 * velocity(100e-6, 1483, .4073), 6.1, 0.05);
+}
+
+TEST(DragGidaspow, GivesTheFixedBedPressureDrop) {
+  // d 1 mm, eps .451335, length .0156 m, rho 10, nu 1.5e-4
+  const double eps = .451335;
+  for (const auto& [superficial, pressure] :
+       {std::pair{.002, 22.99}, std::pair{.01, 115.09}, std::pair{.02, 230.51}}) {
+    const double slip = superficial / eps;
+    const double beta = (1 - eps) * drag_gidaspow({eps, 1e-3, slip, 10.0, 1.5e-3});
+    EXPECT_NEAR(beta * slip / eps * .0156, pressure, 0.005);
+  }
+}
+
+TEST(DragGidaspow, RefusesAVoidFractionOutOfRange) {
+  EXPECT_THROW(drag(0.0, 1e-3, 0.1), InternalError);
+  EXPECT_THROW(drag(1.01, 1e-3, 0.1), InternalError);
+  EXPECT_THROW(drag(0.5, 1e-3, -0.1), InternalError);
+}
+
+TEST(DragClosures, AreFoundByTheirNames) {
+  EXPECT_EQ(find_drag_closure("gidaspow"), &drag_gidaspow);
+  EXPECT_EQ(find_drag_closure("gidaspov"), nullptr);
+  for (const std::string& name : drag_closure_names()) {
+    EXPECT_NE(find_drag_closure(name), nullptr) << name;
+  }
+}
+
+}  // namespace
+}  // namespace gasgrain

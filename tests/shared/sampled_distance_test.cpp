@@ -1,0 +1,186 @@
+#include "coupling/shared/sampled_distance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "coupling/shared/boolean_shapes.hpp"
+#include "coupling/shared/error.hpp"
+#include "coupling/shared/primitives.hpp"
+#include "coupling/shared/sampling.hpp"
+#include "tests/shared/shape_checks.hpp"
+
+namespace gasgrain {
+namespace {
+
+const Shape ball = make_shape(Sphere{Vec3(0.05, -0.02, 0.03), 0.5});
+const Shape tube =
+    make_shape(Cylinder{Vec3::Zero(), Vec3(0, 1, 0), 0.3, std::numeric_limits<double>::infinity()});
+const Shape vessel =
+    make_complement(make_shape(Box{.center = Vec3::Zero(), .half_size = Vec3(0.7, 0.6, 0.5)}));
+
+SampledDistance sampled(const Shape& shape, double spacing, double band) {
+  return sample_shape(*shape, {.lower = Vec3(-1, -1, -1),
+                               .upper = Vec3(1, 1, 1),
+                               .spacing = spacing,
+                               .band = band,
+                               .cut = true});
+}
+
+TEST(SampledDistance, ReproducesTheSamplesAndIsLinearInBetween) {
+  const Shape plane = make_shape(Plane{Vec3(0.1, 0, 0), Vec3(0.36, 0.48, 0.8)});
+  const SampledDistance field = sampled(plane, 0.05, 0.3);
+  RandomPoints points(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  int in_band = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const Vec3 x = points.next();
+    if (std::abs(plane->distance(x)) > 0.3) continue;
+    ++in_band;
+    EXPECT_NEAR(field.distance(x), plane->distance(x), 1e-14);
+    EXPECT_LT((field.sample(x).gradient - plane->sample(x).gradient).norm(), 1e-12);
+  }
+  EXPECT_GT(in_band, 300);
+}
+
+TEST(SampledDistance, GradientIsTheDerivativeOfTheInterpolant) {
+  const SampledDistance field = sampled(ball, 0.05, 0.1);
+  expect_exact_gradient(field, RandomPoints(Vec3(-0.99, -0.99, -0.99), Vec3(0.99, 0.99, 0.99)));
+}
+
+TEST(SampledDistance, GradientIsTheDerivativeOutsideOfTheBoxToo) {
+  expect_exact_gradient(sampled(ball, 0.05, 2.0), RandomPoints(Vec3(-3, -3, 1.1), Vec3(3, 3, 3)));
+  expect_exact_gradient(sampled(vessel, 0.05, 2.0), RandomPoints(Vec3(-3, -3, 1.1), Vec3(3, 3, 3)));
+  expect_exact_gradient(sampled(tube, 0.05, 2.0), RandomPoints(Vec3(-1, 1.1, -1), Vec3(3, 3, 3)));
+}
+
+// Largest error within half the band, for the order of the interpolation.
+double largest_error(double spacing) {
+  const SampledDistance field = sampled(ball, spacing, 0.3);
+  RandomPoints points(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  double largest = 0.0;
+  for (int n = 0; n < 20000; ++n) {
+    const Vec3 x = points.next();
+    if (std::abs(ball->distance(x)) > 0.15) continue;
+    largest = std::max(largest, std::abs(field.distance(x) - ball->distance(x)));
+  }
+  return largest;
+}
+
+TEST(SampledDistance, ErrorFallsWithTheSquareOfTheSpacing) {
+  const double coarse = largest_error(0.08), middle = largest_error(0.04),
+               fine = largest_error(0.02);
+  EXPECT_GT(std::log2(coarse / middle), 1.8);
+  EXPECT_GT(std::log2(middle / fine), 1.9);
+  EXPECT_LT(fine, 0.02 * 0.02 / (4 * 0.35) * 1.5);  // h^2/8 times the two curvatures at r = 0.35
+}
+
+TEST(SampledDistance, AwayFromTheBandHasTheRightSignAndALowerBound) {
+  for (const Shape& shape : {ball, tube, vessel}) {
+    const SampledDistance field = sampled(shape, 0.025, 0.06);
+    EXPECT_LT(field.stored_bricks(), field.data().slot.size());
+    RandomPoints points(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+    for (int n = 0; n < 20000; ++n) {
+      const Vec3 x = points.next();
+      const double phi = shape->distance(x);
+      const DistanceSample sample = field.sample(x);
+      if (std::abs(phi) <= 0.06) continue;
+      EXPECT_GT(sample.distance * phi, 0.0);
+      EXPECT_LE(std::abs(sample.distance), std::abs(phi) + 0.025);  // interpolated near edges
+      EXPECT_GE(std::abs(sample.distance), 0.06 - 0.025);
+    }
+  }
+}
+
+TEST(SampledDistance, StoresEveryBrickThatTouchesTheBand) {
+  const SampledDistance field = sampled(ball, 0.025, 0.06);
+  RandomPoints points(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  for (int n = 0; n < 20000; ++n) {
+    const Vec3 x = points.next();
+    if (std::abs(ball->distance(x)) > field.resolved_range()) continue;
+    EXPECT_GT(field.sample(x).gradient.norm(), 0.9);
+  }
+}
+
+TEST(SampledDistance, BoundsTheDistanceOutsideOfItsBox) {
+  const SampledDistance around_ball = sampled(ball, 0.05, 2.0);
+  const SampledDistance around_vessel = sampled(vessel, 0.05, 2.0);
+  RandomPoints points(Vec3(-4, -4, -4), Vec3(4, 4, 4));
+  for (int n = 0; n < 5000; ++n) {
+    const Vec3 x = points.next();
+    if (x.cwiseAbs().maxCoeff() <= 1) continue;
+    EXPECT_LE(around_ball.distance(x), ball->distance(x) + 0.005);
+    EXPECT_GT(around_ball.distance(x), 0.4);
+    EXPECT_GE(around_vessel.distance(x), vessel->distance(x) - 0.03);
+    EXPECT_LT(around_vessel.distance(x), -0.25);
+  }
+}
+
+TEST(SampledDistance, IsContinuousAcrossTheSidesOfItsBox) {
+  for (const Shape& shape : {ball, tube, vessel}) {
+    const SampledDistance field = sampled(shape, 0.05, 2.0);
+    const double side = field.upper()[1];
+    for (const double x : {-0.9, -0.2, 0.1, 0.6}) {
+      EXPECT_NEAR(field.distance(Vec3(x, side - 1e-12, 0.3)),
+                  field.distance(Vec3(x, side + 1e-12, 0.3)), 1e-11);
+    }
+  }
+}
+
+TEST(SampledDistance, ContinuesACutBodyOutwards) {
+  const SampledDistance field = sampled(tube, 0.05, 2.0);
+  EXPECT_TRUE(field.ends_at_box());
+  for (const double y : {-20.0, 1.5, 7.0}) {
+    EXPECT_NEAR(field.distance(Vec3(0.5, y, 0)), 0.2, 1e-3);
+    EXPECT_LT(field.distance(Vec3(0.1, y, 0.1)), 0);
+  }
+}
+
+// Work of the elastic force along a closed path of many small steps, relative to the energy moved.
+TEST(SampledDistance, ElasticForceDoesNoWorkOnAClosedPath) {
+  const SampledDistance field = sampled(ball, 0.05, 0.3);
+  const double radius = 0.2;
+  const auto force = [&](const Vec3& x) {
+    const DistanceSample s = field.sample(x);
+    return Vec3(std::max(0.0, radius - s.distance) * s.gradient);
+  };
+  constexpr int steps = 200000;
+  double work = 0.0, magnitude = 0.0;
+  Vec3 before(0, 0, 0);
+  for (int n = 0; n <= steps; ++n) {
+    const double angle = 2 * M_PI * n / steps;
+    const Vec3 x = Vec3(0.05 + 0.6 * std::cos(angle), -0.02 + 0.61 * std::sin(angle),
+                        0.03 + 0.1 * std::sin(3 * angle));
+    if (n > 0) {
+      const double part = force(0.5 * (x + before)).dot(x - before);
+      work += part;
+      magnitude += std::abs(part);
+    }
+    before = x;
+  }
+  EXPECT_GT(magnitude, 1e-3);
+  EXPECT_LT(std::abs(work), 1e-5 * magnitude);
+}
+
+TEST(SampledDistance, RejectsDataThatDoNotFitEachOther) {
+  BrickSamples good = sampled(ball, 0.1, 0.2).data();
+  EXPECT_NO_THROW(SampledDistance{good});
+  BrickSamples bad = good;
+  bad.slot.pop_back();
+  EXPECT_THROW(SampledDistance{bad}, UserError);
+  bad = good;
+  bad.samples.pop_back();
+  EXPECT_THROW(SampledDistance{bad}, UserError);
+  bad = good;
+  bad.samples[17] = std::nan("");
+  EXPECT_THROW(SampledDistance{bad}, UserError);
+  bad = good;
+  bad.slot[0] = 1 << 20;
+  EXPECT_THROW(SampledDistance{bad}, UserError);
+  bad = good;
+  bad.spacing = 0;
+  EXPECT_THROW(SampledDistance{bad}, UserError);
+}
+
+}  // namespace
+}  // namespace gasgrain

@@ -1,0 +1,126 @@
+#include "coupling/shared/sampling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "coupling/shared/boolean_shapes.hpp"
+#include "coupling/shared/error.hpp"
+#include "coupling/shared/primitives.hpp"
+
+namespace gasgrain {
+namespace {
+
+const Shape ball = make_shape(Sphere{Vec3::Zero(), 0.5});
+
+SampledDistance sampled(const Shape& shape, bool cut = false) {
+  return sample_shape(*shape, {.lower = Vec3(-1, -1, -1),
+                               .upper = Vec3(1, 1, 1),
+                               .spacing = 0.05,
+                               .band = 0.2,
+                               .cut = cut});
+}
+
+std::string complaint(const SampledDistance& field) {
+  try {
+    check_closed(field, "body 'b'");
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// The samples of `field` passed through `change(x, phi)`.
+template <class Change>
+SampledDistance changed(const SampledDistance& field, const Change& change) {
+  BrickSamples data = field.data();
+  constexpr int n = SampledDistance::brick_points;
+  for (int b = 0; b < static_cast<int>(data.slot.size()); ++b) {
+    if (data.slot[b] < 0) continue;
+    const int bx = b % data.bricks[0], by = b / data.bricks[0] % data.bricks[1],
+              bz = b / data.bricks[0] / data.bricks[1];
+    for (int s = 0; s < SampledDistance::samples_per_brick; ++s) {
+      const Vec3 steps(8 * bx + s % n, 8 * by + s / n % n, 8 * bz + s / n / n);
+      double& phi = data.samples[data.slot[b] * SampledDistance::samples_per_brick + s];
+      phi = change(Vec3(data.lower + data.spacing * steps), phi);
+    }
+  }
+  return SampledDistance(data);
+}
+
+TEST(Sampling, AcceptsClosedBodies) {
+  EXPECT_EQ(complaint(sampled(ball)), "");
+  EXPECT_EQ(complaint(sampled(make_complement(ball))), "");
+  const Shape box = make_shape(Box{.center = Vec3::Zero(), .half_size = Vec3(0.7, 0.5, 0.4)});
+  EXPECT_EQ(complaint(sampled(make_difference(box, ball))), "");
+}
+
+TEST(Sampling, NamesThePlaceWhereASurfaceIsOpen) {
+  // a hemisphere's shell without its base: below the missing base the inside leaks out
+  const SampledDistance open = changed(
+      sampled(ball), [](const Vec3& x, double phi) { return x[2] > 0 ? phi : std::abs(phi); });
+  const std::string message = complaint(open);
+  EXPECT_NE(message.find("body 'b': body not closed"), std::string::npos) << message;
+  EXPECT_NE(message.find("jumps from"), std::string::npos) << message;
+}
+
+TEST(Sampling, RejectsAnUnsignedDistance) {
+  const SampledDistance unsigned_field =
+      changed(sampled(ball), [](const Vec3&, double phi) { return std::abs(phi); });
+  EXPECT_NE(complaint(unsigned_field).find("not closed"), std::string::npos);
+}
+
+TEST(Sampling, RejectsAWrongSignOfOneBrick) {
+  BrickSamples data = sampled(ball).data();
+  for (std::size_t b = 0; b < data.slot.size(); ++b) {
+    if (data.slot[b] >= 0) continue;
+    data.far_value[b] = -data.far_value[b];
+    break;
+  }
+  EXPECT_NE(complaint(SampledDistance(data)).find("jumps from"), std::string::npos);
+}
+
+TEST(Sampling, RejectsAFieldThatIsNoDistance) {
+  const SampledDistance steep =
+      changed(sampled(ball), [](const Vec3&, double phi) { return 1.5 * phi; });
+  EXPECT_NE(complaint(steep).find("jumps from"), std::string::npos);
+}
+
+TEST(Sampling, ABodyThatLeavesTheBoxMustSaySo) {
+  const Shape tube = make_shape(
+      Cylinder{Vec3::Zero(), Vec3(0, 1, 0), 0.3, std::numeric_limits<double>::infinity()});
+  EXPECT_NE(complaint(sampled(tube)).find("--allow-cut"), std::string::npos);
+  EXPECT_EQ(complaint(sampled(tube, true)), "");
+}
+
+TEST(Sampling, ABodyOutsideOfTheBoxIsAnError) {
+  const Shape far_ball = make_shape(Sphere{Vec3(5, 0, 0), 0.5});
+  EXPECT_NE(complaint(sampled(far_ball)).find("no sample lies inside"), std::string::npos);
+  EXPECT_NE(complaint(sampled(make_complement(far_ball))).find("no sample lies outside"),
+            std::string::npos);
+}
+
+TEST(Sampling, RoundsTheBoxUpToWholeBricks) {
+  const SampledDistance field = sampled(ball);  // 2 / (8 * 0.05) = 5 bricks
+  EXPECT_EQ(field.data().bricks, (std::array<int, 3>{5, 5, 5}));
+  const SampledDistance odd = sample_shape(*ball, {.lower = Vec3(-1, -1, -1),
+                                                   .upper = Vec3(1, 1.01, 1),
+                                                   .spacing = 0.05,
+                                                   .band = 0.2,
+                                                   .cut = false});
+  EXPECT_EQ(odd.data().bricks, (std::array<int, 3>{5, 6, 5}));
+  EXPECT_GE(odd.upper()[1], 1.01);
+}
+
+TEST(Sampling, RejectsEmptyAndOversizedBoxes) {
+  SamplingBox box{
+      .lower = Vec3::Zero(), .upper = Vec3(1, 0, 1), .spacing = 0.1, .band = 1, .cut = false};
+  EXPECT_THROW(sample_shape(*ball, box), UserError);
+  box.upper = Vec3(1, 1, 1);
+  box.spacing = 1e-5;
+  EXPECT_THROW(sample_shape(*ball, box), UserError);
+}
+
+}  // namespace
+}  // namespace gasgrain
