@@ -15,8 +15,8 @@ struct Boundary {
   BoundaryType type = BoundaryType::no_slip;
   Vec3 superficial_velocity = Vec3::Zero();  // m/s, inlet: the flux eps u that enters (void
                                              // fraction times velocity)
-  Vec3 wall_velocity = Vec3::Zero();  // m/s, no_slip: velocity of the wall in its plane
-  double pressure = 0.0;              // Pa, outlet
+  Vec3 wall_velocity = Vec3::Zero();         // m/s, no_slip: velocity of the wall in its plane
+  double pressure = 0.0;                     // Pa, outlet
 };
 
 // [direction][side], side 0 = lower, 1 = upper.

@@ -41,6 +41,9 @@ Convection read_convection(const ConfigTable& table) {
 Numerics read_numerics(const ConfigTable& table) {
   Numerics n;
   n.convection = read_convection(table);
+  const std::string solver =
+      table.choice_or("pressure_solver", "multigrid", {"multigrid", "hypre"});
+  n.pressure_solver = solver == "hypre" ? PressureMethod::hypre : PressureMethod::multigrid;
   n.pressure_tolerance =
       table.number_or("pressure_tolerance", n.pressure_tolerance, {.lower = 1e-14, .upper = 0.1});
   n.pressure_iterations = static_cast<int>(table.integer_or(

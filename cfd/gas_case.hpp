@@ -19,8 +19,11 @@ struct GasProperties {
 
 enum class Convection { none, central, van_leer };
 
+enum class PressureMethod { hypre, multigrid };
+
 struct Numerics {
   Convection convection = Convection::van_leer;
+  PressureMethod pressure_solver = PressureMethod::multigrid;
   double pressure_tolerance = 1e-6;  // residual over right-hand side, 2-norm
   int pressure_iterations = 200;     // largest number of CG iterations
   double courant_number = 0.25;      // largest |u| dt / dx

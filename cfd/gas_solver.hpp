@@ -35,14 +35,18 @@ struct MomentumBudget {
   Vec3 convection = Vec3::Zero();          // boundary flux and remainder of the advective form
   Vec3 viscous = Vec3::Zero();             // shear of sides; interior terms cancel
   Vec3 drag = Vec3::Zero();                // -(what the grains receive by drag)
-  Vec3 body = Vec3::Zero();                // immersed bodies
+  Vec3 body = Vec3::Zero();                // immersed bodies: what step 3 of the scheme adds
+  // pressure + pressure_on_grains = side_pressure + body_pressure, computed independently from the
+  // cells' pressures: the force of the sides of the grid on gas and grains, and that of the bodies.
+  Vec3 side_pressure = Vec3::Zero();
+  Vec3 body_pressure = Vec3::Zero();
 };
 
 struct StepReport {
   PressureReport pressure;      // iterations, residual
   double divergence = 0.0;      // largest |continuity residual| * dt, relative to eps (-)
-  double removed_mean = 0.0;    // of the pressure right-hand side, relative to its 1-norm;
-                                // 0 when the system is not singular
+  double removed_mean = 0.0;    // of the pressure right-hand side, relative to the 1-norm of its
+                                // terms; 0 when the system is not singular
   double courant_number = 0.0;  // largest |u| dt / dx after the step
   MomentumBudget momentum;
 };
@@ -77,12 +81,13 @@ class GasSolver {
   // Gas as the grains of a cell see it: sum of lower_share and upper_share times the face value.
   // The transpose of the way B, B v and the solid volume reach the faces, so that a grain and the
   // gas exchange opposite forces. In directions without a free face: the wall's velocity and 0.
+  // Ghosts are filled as by fill_ghosts.
   void sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const;
 
-  // Flux-weighted mean pressure over the open area of a side of the grid, Pa, extrapolated from the
-  // control volumes of the faces next to it so that the momentum balance closes.
+  // Mean pressure over the open area of a side of the grid that is not periodic, Pa, extrapolated
+  // from the control volumes of the faces next to it so that the momentum balance closes.
   double side_pressure(int direction, int side) const;
-  double side_open_area(int direction, int side) const;  // m^2
+  double side_open_area(int direction, int side) const;  // m^2 that no body covers
   double side_flux(int direction, int side) const;       // m^3/s of gas, positive along +direction
 
  private:

@@ -1,0 +1,131 @@
+// Convection in the advective-consistent form: div(eps u u) - u div(eps u), summed over directions
+//
+//   ( F_hi (u_hi - u) - F_lo (u_lo - u) ) / h,      F = eps u,
+//
+// so that a uniform velocity feels nothing whatever the void fraction does, while the momentum flux
+// is the one that div(eps u) implies. F is averaged to the sides of the face's control volume, the
+// carried u is central or van Leer (1974): the value upwind plus a b / (a + b) for neighbouring
+// differences a, b of one sign. Plain upwind is too diffusive (drag of a cylinder + 20 %).
+//
+// On an outlet the flow outside equals that on the face; what leaves carries the difference to the
+// face before it, what comes back in carries the velocity it has.
+#include "cfd/convection.hpp"
+
+#include <algorithm>
+
+namespace gasgrain::cfd {
+
+namespace {
+
+struct Central {
+  static double carried(double, double, double below, double above, double) {
+    return 0.5 * (below + above);
+  }
+};
+
+struct VanLeer {
+  // flux > 0 carries from below; `under` and `over` are the neighbours beyond.
+  static double carried(double flux, double under, double below, double above, double over) {
+    const double upwind = flux > 0.0 ? below : above;
+    const double a = flux > 0.0 ? below - under : above - over;
+    const double b = flux > 0.0 ? above - below : below - above;
+    return a * b > 0.0 ? upwind + a * b / (a + b) : upwind;
+  }
+};
+
+// One direction of the term for one component.
+struct Strides {
+  std::ptrdiff_t along;      // direction of the transport
+  std::ptrdiff_t component;  // direction of the component
+};
+
+// slope -= scale * (F_hi (u_hi - u) - F_lo (u_lo - u)) on the faces of `box`. The flux at the side
+// between faces n and n + along is the mean of F at n + along shifted to both cells of the face, or
+// of F at n and n + along when the transport is along the component itself.
+template <class Scheme>
+void transport(Field& slope, const IndexBox& box, const Field& flux, const Field& velocity,
+               const Strides& s, double scale) {
+  const double* u = velocity.data();
+  const double* f = flux.data();
+  double* result = slope.data();
+  const bool along_component = s.along == s.component;
+  const std::ptrdiff_t first = along_component ? s.along : s.along - s.component;
+  const std::ptrdiff_t second = along_component ? 0 : s.along;
+  const std::ptrdiff_t a = s.along;
+  for_each_row(box, slope, [=](std::ptrdiff_t row, int length) {
+    for (std::ptrdiff_t n = row; n < row + length; ++n) {
+      const double hi = 0.5 * (f[n + first] + f[n + second]);
+      const double lo = 0.5 * (f[n + first - a] + f[n + second - a]);
+      const double u_hi = Scheme::carried(hi, u[n - a], u[n], u[n + a], u[n + 2 * a]);
+      const double u_lo = Scheme::carried(lo, u[n - 2 * a], u[n - a], u[n], u[n + a]);
+      result[n] -= scale * (hi * (u_hi - u[n]) - lo * (u_lo - u[n]));
+    }
+  });
+}
+
+// Normal transport on the faces of an outlet, see the head of the file.
+void leave(Field& slope, const IndexBox& box, const Field& flux, const Field& velocity,
+           double scale, std::ptrdiff_t inwards) {
+  for_each_in(box, [&](int i, int j, int k) {
+    const std::ptrdiff_t n = slope.index(i, j, k);
+    const double outflow = inwards < 0 ? flux[n] : -flux[n];
+    slope[n] -= scale * std::max(outflow, 0.0) * (velocity[n] - velocity[n + inwards]);
+  });
+}
+
+void mask(Field& slope, const GasDomain& domain, int d) {
+  const double* part = domain.walls.takes_part[d].data();
+  double* result = slope.data();
+  for_each_row(all_faces(domain, d), slope, [=](std::ptrdiff_t row, int length) {
+    for (std::ptrdiff_t n = row; n < row + length; ++n) result[n] *= part[n];
+  });
+}
+
+template <class Scheme>
+void add(VectorField& slope, const GasDomain& domain, const VectorField& flux,
+         const VectorField& velocity) {
+  for (int d = 0; d < 3; ++d) {
+    if (!domain.solved[d]) continue;
+    const auto scale = [&](int e) { return domain.gas.density / domain.spacing[e]; };
+    for (int e = 0; e < 3; ++e) {
+      if (!domain.varies[e] || (e != d && !domain.solved[e])) continue;
+      const Strides strides{slope[d].stride(e), slope[d].stride(d)};
+      const IndexBox box = e == d ? inner_faces(domain, d) : all_faces(domain, d);
+      transport<Scheme>(slope[d], box, flux[e], velocity[d], strides, scale(e));
+    }
+    for (int side = 0; side < 2; ++side) {
+      if (!domain.is_outlet(d, side) || !domain.decomposition.at_boundary(d, side)) continue;
+      const std::ptrdiff_t inwards = (side == 0 ? 1 : -1) * slope[d].stride(d);
+      leave(slope[d], plane_of(domain, d, domain.side_plane(d, side)), flux[d], velocity[d],
+            scale(d), inwards);
+    }
+    mask(slope[d], domain, d);
+  }
+}
+
+VectorField gas_flux(const FaceMedium& medium, const VectorField& velocity) {
+  VectorField flux = velocity;
+  for (int d = 0; d < 3; ++d) {
+    double* f = flux[d].data();
+    const double* eps = medium.void_fraction[d].data();
+    for (std::size_t n = 0; n < flux[d].count(); ++n) f[n] *= eps[n];
+  }
+  return flux;
+}
+
+}  // namespace
+
+void add_convection(VectorField& slope, const GasDomain& domain, const FaceMedium& medium,
+                    const VectorField& velocity, Convection scheme) {
+  if (scheme == Convection::none) return;
+  VectorField scaled;
+  if (medium.has_grains) scaled = gas_flux(medium, velocity);
+  const VectorField& flux = medium.has_grains ? scaled : velocity;
+  if (scheme == Convection::central) {
+    add<Central>(slope, domain, flux, velocity);
+  } else {
+    add<VanLeer>(slope, domain, flux, velocity);
+  }
+}
+
+}  // namespace gasgrain::cfd

@@ -1,0 +1,31 @@
+// The grains as the faces of the gas see them: void fraction and drag.
+#pragma once
+
+#include "cfd/gas_domain.hpp"
+
+namespace gasgrain::cfd {
+
+struct GrainPhase;
+
+// Without grains (eps = 1 and B = 0 everywhere) has_grains is false and the other members are not
+// to be read; whoever uses them skips the terms.
+struct FaceMedium {
+  bool has_grains = false;
+  Field cell_void_fraction;       // eps, ghosts filled (outside the grid: the value inside)
+  VectorField void_fraction;      // eps_f on faces, also on the first two layers of ghost faces
+  VectorField momentum_exchange;  // B_f on owned faces, kg m^-3 s^-1
+  VectorField exchange_momentum;  // (B v)_f on owned faces, kg m^-2 s^-2
+};
+
+FaceMedium make_face_medium(const GasDomain& domain);
+
+// Share-and-volume-weighted means of the cells' values: the transpose of what sample_at_cells
+// gathers. Faces that do not take part get the mean void fraction of their two cells and no drag.
+void update(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains);
+
+// Void fraction of a face: 1 without grains.
+inline double face_void_fraction(const FaceMedium& medium, int direction, std::ptrdiff_t n) {
+  return medium.has_grains ? medium.void_fraction[direction][n] : 1.0;
+}
+
+}  // namespace gasgrain::cfd

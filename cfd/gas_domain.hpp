@@ -1,0 +1,83 @@
+// What stays the same from step to step: the block, the sides, the gas and the walls.
+#pragma once
+
+#include <array>
+
+#include "cfd/boundary.hpp"
+#include "cfd/field.hpp"
+#include "cfd/gas_case.hpp"
+#include "cfd/grid.hpp"
+#include "cfd/loops.hpp"
+#include "cfd/wall_geometry.hpp"
+
+namespace gasgrain::cfd {
+
+struct GasDomain {
+  GasDomain(const GasCase& gas_case, MPI_Comm communicator);
+
+  Decomposition decomposition;
+  Boundaries boundaries;
+  GasProperties gas;
+  WallGeometry walls;
+  Vec3 spacing;                // m
+  std::array<bool, 3> solved;  // component d has a face that takes part, on some rank
+  std::array<bool, 3> varies;  // something can change along direction d
+  VectorField control_volume;  // of faces, m^3: sum of the shares of its cells, 0 where fixed
+  Field open_share;            // cells: 1 - alpha
+
+  const Index3& size() const { return decomposition.block().size; }
+  double face_area(int d) const { return spacing.prod() / spacing[d]; }
+  double cell_volume() const { return spacing.prod(); }
+
+  // Local index of the face plane on a side of the grid.
+  int side_plane(int direction, int side) const {
+    const int cells = side == 0 ? 0 : decomposition.grid().cells[direction];
+    return cells - decomposition.block().lower[direction];
+  }
+  // Local index of the layer of cells inside that side.
+  int side_layer(int direction, int side) const { return side_plane(direction, side) - side; }
+  bool is_outlet(int direction, int side) const {
+    return boundaries[direction][side].type == BoundaryType::outlet;
+  }
+  bool is_periodic(int direction) const {
+    return boundaries[direction][0].type == BoundaryType::periodic;
+  }
+};
+
+// Half-open box of local indices.
+struct IndexBox {
+  Index3 begin, end;
+};
+
+// Owned faces of a direction that are not on a side of the grid.
+IndexBox inner_faces(const GasDomain& domain, int direction);
+// Faces (or, with a layer of cells, cells) of this block in the plane `index` of a direction.
+IndexBox plane_of(const GasDomain& domain, int direction, int index);
+
+template <class Visit>
+void for_each_in(const IndexBox& box, Visit&& visit) {
+  for (int k = box.begin[2]; k < box.end[2]; ++k) {
+    for (int j = box.begin[1]; j < box.end[1]; ++j) {
+      for (int i = box.begin[0]; i < box.end[0]; ++i) visit(i, j, k);
+    }
+  }
+}
+
+// visit(first storage index, length) for every row of a box along x.
+template <class Visit>
+void for_each_row(const IndexBox& box, const Field& like, Visit&& visit) {
+  const int length = box.end[0] - box.begin[0];
+  if (length <= 0) return;
+  for (int k = box.begin[2]; k < box.end[2]; ++k) {
+    for (int j = box.begin[1]; j < box.end[1]; ++j) {
+      visit(like.index(box.begin[0], j, k), length);
+    }
+  }
+}
+
+// All owned faces of a direction as a box.
+inline IndexBox all_faces(const GasDomain& domain, int direction) {
+  return {{0, 0, 0}, owned_faces(domain.decomposition, direction)};
+}
+
+}  // namespace gasgrain::cfd

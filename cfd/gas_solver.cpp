@@ -1,0 +1,285 @@
+// Volume-averaged Navier-Stokes equations, model A, for the gas between grains of void fraction eps
+// and momentum exchange B = sum of beta/(1-eps) V per volume (eq 11-16 of Mori, Wu, Sakai 2019):
+//
+//   d(eps)/dt + div(eps u) = 0
+//   eps rho du/dt + rho (div(eps u u) - u div(eps u)) = -eps grad p + div(eps tau) + eps rho g
+//                                                       + B (v - u) + F_body
+//
+// on a staggered grid. Per face K = dt B/(eps rho); one step from u_n to u:
+//
+//   1  eps rho (u^ - u_n)/dt = [ -rho(div(eps u u) - u div(eps u)) + div(eps tau) ]_AB2
+//                              + eps rho g + B v
+//   2  u* = u^ /(1 + K)
+//   3  u* near bodies blended with their no-slip profile, u* = u_wall inside them
+//   4  div( a c grad p ) = (1 - alpha)(eps_new - eps_old)/dt + div(a eps u*),
+//                          c = eps dt/(rho (1 + K))
+//   5  u = u* - (c/eps) grad p
+//
+// a is the open share of a face, alpha the solid share of a cell. eps, B and B v of a face are
+// means over the shares its cells' grains have in it. The bracket is evaluated with the void
+// fraction of its own time; gravity is taken with the new one, so that gas at rest stays at rest
+// while grains move. Drag is implicit in 2 and in 4, without which a bed's pressure drop would be
+// too low by 1/(1 + K) (only 2) or the step limited to 2 eps rho / beta (explicit).
+#include "cfd/gas_solver.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "cfd/convection.hpp"
+#include "cfd/face_medium.hpp"
+#include "cfd/gas_domain.hpp"
+#include "cfd/ghost_values.hpp"
+#include "cfd/halo_exchange.hpp"
+#include "cfd/immersed_boundary.hpp"
+#include "cfd/momentum_budget.hpp"
+#include "cfd/projection.hpp"
+#include "cfd/time_step.hpp"
+#include "cfd/viscous_stress.hpp"
+#include "coupling/shared/error.hpp"
+
+namespace gasgrain::cfd {
+
+namespace {
+
+// The bracket of step 1 at one time, N/m^3 on faces, and its integrals over this rank, N.
+struct Slope {
+  VectorField total;
+  Vec3 convection = Vec3::Zero();
+  Vec3 viscous = Vec3::Zero();
+};
+
+VectorField fields(const Index3& size) {
+  return {Field(size), Field(size), Field(size)};
+}
+
+GrainPhase no_grains(const Index3& size) {
+  return {Field(size, 1.0), Field(size), fields(size)};
+}
+
+}  // namespace
+
+struct GasSolver::State {
+  State(const GasCase& given, MPI_Comm communicator);
+
+  void set_initial_velocity();
+  void evaluate_slope();
+  void predict(double dt, const AdamsBashforth& weights);
+  void check_finite(double dt, double speed_before) const;
+
+  GasCase gas_case;
+  GasDomain domain;
+  FaceMedium medium;
+  GrainPhase grains;
+  ImmersedBoundary immersed_boundary;
+  Projection projection;
+  VectorField velocity;
+  Field pressure;
+  Slope slope, old_slope;
+  double time = 0.0, previous_dt = 0.0;
+};
+
+GasSolver::State::State(const GasCase& given, MPI_Comm communicator)
+    : gas_case(given),
+      domain(given, communicator),
+      medium(make_face_medium(domain)),
+      grains(no_grains(domain.size())),
+      immersed_boundary(domain),
+      projection(domain, given.numerics),
+      velocity(fields(domain.size())),
+      pressure(domain.size()) {
+  slope.total = old_slope.total = fields(domain.size());
+  set_initial_velocity();
+}
+
+void GasSolver::State::set_initial_velocity() {
+  for (int d = 0; d < 3; ++d) {
+    for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
+      velocity[d](i, j, k) = domain.walls.takes_part[d](i, j, k) * gas_case.initial.velocity[d];
+    });
+  }
+  set_solid_faces(velocity, domain);
+  fill_velocity_ghosts(domain, medium, velocity);
+}
+
+void GasSolver::State::evaluate_slope() {
+  std::swap(slope, old_slope);
+  for (Field& component : slope.total) component.fill(0.0);
+  add_convection(slope.total, domain, medium, velocity, gas_case.numerics.convection);
+  slope.convection = volume_integral(domain, slope.total);
+  add_viscous_stress(slope.total, domain, medium, velocity);
+  slope.viscous = volume_integral(domain, slope.total) - slope.convection;
+}
+
+// Steps 1 and 2 on the faces that take part.
+void GasSolver::State::predict(double dt, const AdamsBashforth& weights) {
+  const double rho = domain.gas.density;
+  for (int d = 0; d < 3; ++d) {
+    if (!domain.solved[d]) continue;
+    const double g = domain.gas.gravity[d];
+    for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
+      const std::ptrdiff_t n = velocity[d].index(i, j, k);
+      if (domain.walls.takes_part[d][n] == 0.0) return;
+      const double eps = face_void_fraction(medium, d, n);
+      double force = weights.now * slope.total[d][n] + weights.before * old_slope.total[d][n];
+      double drag_number = 0.0;
+      if (medium.has_grains) {
+        force += medium.exchange_momentum[d][n];
+        drag_number = dt * medium.momentum_exchange[d][n] / (eps * rho);
+      }
+      velocity[d][n] = (velocity[d][n] + dt * (force / (eps * rho) + g)) / (1.0 + drag_number);
+    });
+  }
+}
+
+void GasSolver::State::check_finite(double dt, double speed_before) const {
+  double sum = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    for_each_face(domain.decomposition, d,
+                  [&](int i, int j, int k) { sum += std::abs(velocity[d](i, j, k)); });
+  }
+  if (std::isfinite(sum_over_ranks(domain.decomposition, sum))) return;
+  std::ostringstream message;
+  message << "the gas velocity is no longer finite at t = " << time << " s after a step of " << dt
+          << " s; the largest velocity before it was " << speed_before
+          << " m/s. Take a smaller step, or look for grains or inlets that drive it";
+  throw UserError(message.str());
+}
+
+GasSolver::GasSolver(const GasCase& gas_case, MPI_Comm communicator)
+    : state_(std::make_unique<State>(gas_case, communicator)) {}
+
+GasSolver::~GasSolver() = default;
+
+StepReport GasSolver::advance(double dt) {
+  State& s = *state_;
+  const GasDomain& domain = s.domain;
+  GASGRAIN_ASSERT(dt > 0.0 && std::isfinite(dt));
+  StepReport report;
+  MomentumBudget& budget = report.momentum;
+  const AdamsBashforth weights = adams_bashforth(dt, s.previous_dt);
+  const double rate_before = largest_courant_rate(domain, s.velocity);
+  const double speed_before = rate_before * domain.spacing.maxCoeff();
+  const Field old_void_fraction = s.medium.cell_void_fraction;
+
+  s.evaluate_slope();
+  const Vec3 momentum_before = gas_momentum(domain, s.medium, s.velocity);
+  update(s.medium, domain, s.grains);
+  const Vec3 momentum_with_new_void = gas_momentum(domain, s.medium, s.velocity);
+
+  s.predict(dt, weights);
+  set_solid_faces(s.velocity, domain);
+  fill_velocity_ghosts(domain, s.medium, s.velocity);
+  if (domain.walls.has_bodies) {
+    budget.body = s.immersed_boundary.apply(s.velocity, domain, s.medium, dt);
+    fill_velocity_ghosts(domain, s.medium, s.velocity);
+  }
+  s.check_finite(dt, speed_before);
+
+  const Projection::Report projected =
+      s.projection.solve(s.medium, old_void_fraction, s.velocity, dt, s.pressure);
+  s.projection.correct(s.velocity, s.medium, dt);
+  fill_velocity_ghosts(domain, s.medium, s.velocity);
+  s.time += dt;
+  s.previous_dt = dt;
+  s.check_finite(dt, speed_before);
+
+  report.pressure = projected.solve;
+  report.removed_mean = projected.removed_mean;
+  report.divergence = s.projection.divergence(s.medium, old_void_fraction, s.velocity, dt);
+  report.courant_number = dt * largest_courant_rate(domain, s.velocity);
+  budget.stored = gas_momentum(domain, s.medium, s.velocity) - momentum_before;
+  budget.convection =
+      momentum_with_new_void - momentum_before +
+      dt * (weights.now * s.slope.convection + weights.before * s.old_slope.convection);
+  budget.viscous = dt * (weights.now * s.slope.viscous + weights.before * s.old_slope.viscous);
+  add_forces(budget, domain, s.medium, s.velocity, s.projection.pressure_gradient(), dt);
+  add_pressure_reactions(budget, domain, s.pressure, s.projection.pressure_gradient(), dt);
+  sum_over_ranks(domain.decomposition, budget);
+  return report;
+}
+
+const GasCase& GasSolver::gas_case() const {
+  return state_->gas_case;
+}
+const Decomposition& GasSolver::decomposition() const {
+  return state_->domain.decomposition;
+}
+const WallGeometry& GasSolver::walls() const {
+  return state_->domain.walls;
+}
+GrainPhase& GasSolver::grains() {
+  return state_->grains;
+}
+double GasSolver::time() const {
+  return state_->time;
+}
+const VectorField& GasSolver::velocity() const {
+  return state_->velocity;
+}
+const Field& GasSolver::pressure() const {
+  return state_->pressure;
+}
+const Field& GasSolver::void_fraction() const {
+  return state_->medium.cell_void_fraction;
+}
+
+void GasSolver::accept_void_fraction_as_old() {
+  update(state_->medium, state_->domain, state_->grains);
+  fill_velocity_ghosts(state_->domain, state_->medium, state_->velocity);
+}
+
+double GasSolver::largest_stable_step() const {
+  return cfd::largest_stable_step(state_->domain, state_->velocity,
+                                  state_->gas_case.numerics.courant_number);
+}
+
+void GasSolver::sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const {
+  const GasDomain& domain = state_->domain;
+  const VectorField& gradient = state_->projection.pressure_gradient();
+  for (int d = 0; d < 3; ++d) {
+    const Field& u = state_->velocity[d];
+    velocity[d] = pressure_gradient[d] = Field(domain.size());
+    for_each_cell(domain.size(), [&](int i, int j, int k) {
+      const std::ptrdiff_t n = u.index(i, j, k), above = n + u.stride(d);
+      const double lower = domain.walls.lower_share[d][n], upper = domain.walls.upper_share[d][n];
+      const bool free = lower + upper > 0.0;
+      velocity[d][n] = free ? lower * u[n] + upper * u[above] : 0.5 * (u[n] + u[above]);
+      pressure_gradient[d][n] = lower * gradient[d][n] + upper * gradient[d][above];
+    });
+  }
+  fill_ghosts(domain.decomposition, velocity);
+  fill_ghosts(domain.decomposition, pressure_gradient);
+}
+
+double GasSolver::side_pressure(int direction, int side) const {
+  const GasDomain& domain = state_->domain;
+  GASGRAIN_ASSERT(!domain.is_periodic(direction));
+  const double force = sum_over_ranks(
+      domain.decomposition, side_force(domain, state_->pressure,
+                                       state_->projection.pressure_gradient(), direction, side));
+  const double area = side_open_area(direction, side);
+  return area > 0.0 ? force / area : 0.0;
+}
+
+double GasSolver::side_open_area(int direction, int side) const {
+  const GasDomain& domain = state_->domain;
+  return sum_over_ranks(domain.decomposition, cfd::side_open_area(domain, direction, side));
+}
+
+double GasSolver::side_flux(int direction, int side) const {
+  const GasDomain& domain = state_->domain;
+  const int plane = domain.side_plane(direction, side);
+  double flux = 0.0;
+  // the block whose first or last cell is at the side
+  if (plane == (side == 0 ? 0 : domain.size()[direction])) {
+    for_each_in(plane_of(domain, direction, plane), [&](int i, int j, int k) {
+      const std::ptrdiff_t n = domain.open_share.index(i, j, k);
+      flux += domain.walls.open_area[direction][n] *
+              face_void_fraction(state_->medium, direction, n) * state_->velocity[direction][n] *
+              domain.face_area(direction);
+    });
+  }
+  return sum_over_ranks(domain.decomposition, flux);
+}
+
+}  // namespace gasgrain::cfd

@@ -1,0 +1,39 @@
+// The no-slip condition of bodies, imposed on the faces next to them (step 3 of the scheme).
+#pragma once
+
+#include <vector>
+
+#include "cfd/face_medium.hpp"
+#include "cfd/gas_domain.hpp"
+
+namespace gasgrain::cfd {
+
+class ImmersedBoundary {
+ public:
+  explicit ImmersedBoundary(const GasDomain& domain);
+
+  // Changes the predicted velocity (ghosts filled) of the faces with 0 <= phi < dx. `dt` in s.
+  // Returns the momentum that this adds to the gas of this rank, N s.
+  Vec3 apply(VectorField& velocity, const GasDomain& domain, const FaceMedium& medium,
+             double dt) const;
+
+ private:
+  struct Face {
+    std::ptrdiff_t face;   // storage index
+    std::ptrdiff_t base;   // lowest of the eight faces around the point x + delta n
+    Vec3 weight;           // of the upper faces in each direction
+    double distance;       // phi, m
+    double wall_velocity;  // m/s
+  };
+
+  double at_point(const Face& face, const Field& velocity) const;
+
+  double probe_length_ = 0.0;               // delta, m
+  std::array<bool, 3> varies_{};            // directions to interpolate in
+  std::array<std::vector<Face>, 3> faces_;  // per direction
+};
+
+// Sets the velocity of faces that cannot move freely inside the grid to that of the body.
+void set_solid_faces(VectorField& velocity, const GasDomain& domain);
+
+}  // namespace gasgrain::cfd

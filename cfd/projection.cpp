@@ -1,0 +1,276 @@
+// The pressure equation, integrated over the cells,
+//
+//   sum over faces of a c A/h (p - p_neighbour) = -(1 - alpha) V (eps_new - eps_old)/dt
+//                                                 - sum of a eps u* A outwards,
+//   c = eps dt / (rho (1 + K)),     K = dt B / (eps rho),
+//
+// with a half cell between the last cell and an outlet. Drag is part of c as well as of u*: with
+// drag in u* alone the pressure drop of a bed would be short by 1/(1 + K).
+//
+// A region without an outlet determines its pressure up to a constant, and only when it neither
+// gains nor loses gas. The sum of its right-hand side is then round-off of the terms' sum; that is
+// checked, the rest removed, and the mean of its pressure set to zero.
+#include "cfd/projection.hpp"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "cfd/halo_exchange.hpp"
+#include "coupling/shared/error.hpp"
+
+namespace gasgrain::cfd {
+
+namespace {
+
+constexpr double largest_imbalance = 1e-12;  // of a sealed region, relative to its terms
+constexpr double round_off_margin = 8.0;     // in units of the evaluation's own round-off
+
+// 1 / (rho (1 + K)) * dt = dt / (rho + dt B / eps), the velocity that a unit gradient removes.
+double mobility(const FaceMedium& medium, double density, double dt, int d, std::ptrdiff_t n) {
+  if (!medium.has_grains) return dt / density;
+  return dt / (density + dt * medium.momentum_exchange[d][n] / medium.void_fraction[d][n]);
+}
+
+std::string place(const GasDomain& domain, const Index3& cell) {
+  const Grid& grid = domain.decomposition.grid();
+  std::ostringstream out;
+  out << "(";
+  for (int d = 0; d < 3; ++d) {
+    out << grid.lower[d] + (cell[d] + 0.5) * domain.spacing[d] << (d < 2 ? ", " : ") m");
+  }
+  return out.str();
+}
+
+}  // namespace
+
+Projection::Projection(const GasDomain& domain, const Numerics& numerics)
+    : domain_(domain),
+      tolerance_(numerics.pressure_tolerance),
+      max_iterations_(numerics.pressure_iterations),
+      solver_(numerics.pressure_solver == PressureMethod::hypre
+                  ? make_hypre_solver(domain.decomposition)
+                  : make_multigrid_solver(domain.decomposition)),
+      term_norm_(domain.size()),
+      outlet_term_(domain.size()) {
+  system_.diagonal = system_.right_hand_side = Field(domain.size());
+  for (int d = 0; d < 3; ++d) gradient_[d] = system_.transmissibility[d] = Field(domain.size());
+  find_regions();
+}
+
+void Projection::find_regions() {
+  Field outlet(domain_.size());
+  for (int d = 0; d < 3; ++d) {
+    for (int side = 0; side < 2; ++side) {
+      if (!domain_.is_outlet(d, side) || !domain_.decomposition.at_boundary(d, side)) continue;
+      const Field& part = domain_.walls.takes_part[d];
+      for_each_in(plane_of(domain_, d, domain_.side_layer(d, side)), [&](int i, int j, int k) {
+        const std::ptrdiff_t n = part.index(i, j, k);
+        outlet[n] += part[n + (side == 1 ? part.stride(d) : 0)];
+      });
+    }
+  }
+  regions_ = find_gas_regions(domain_.decomposition, domain_.walls.takes_part, outlet);
+}
+
+void Projection::set_coefficients(const FaceMedium& medium, double dt) {
+  system_.diagonal.fill(0.0);
+  outlet_term_.fill(0.0);
+  for (int d = 0; d < 3; ++d) {
+    Field& t = system_.transmissibility[d];
+    const Field& part = domain_.walls.takes_part[d];
+    const Field& open = domain_.walls.open_area[d];
+    const double scale = domain_.face_area(d) / domain_.spacing[d];
+    const bool joins_itself = domain_.decomposition.grid().cells[d] == 1;
+    for_each_in(inner_faces(domain_, d), [&](int i, int j, int k) {
+      const std::ptrdiff_t n = t.index(i, j, k);
+      if (part[n] == 0.0 || joins_itself) return;
+      t[n] = scale * open[n] * face_void_fraction(medium, d, n) *
+             mobility(medium, domain_.gas.density, dt, d, n);
+    });
+    for (int side = 0; side < 2; ++side) {
+      if (!domain_.is_outlet(d, side) || !domain_.decomposition.at_boundary(d, side)) continue;
+      for_each_in(plane_of(domain_, d, domain_.side_layer(d, side)), [&](int i, int j, int k) {
+        const std::ptrdiff_t cell = t.index(i, j, k), n = cell + (side == 1 ? t.stride(d) : 0);
+        if (part[n] == 0.0) return;
+        const double coefficient = 2.0 * scale * open[n] * face_void_fraction(medium, d, n) *
+                                   mobility(medium, domain_.gas.density, dt, d, n);
+        system_.diagonal[cell] += coefficient;
+        outlet_term_[cell] += coefficient * domain_.boundaries[d][side].pressure;
+      });
+    }
+  }
+  fill_ghosts(domain_.decomposition, system_.transmissibility);
+}
+
+void Projection::set_right_hand_side(const FaceMedium& medium, const Field& old_void_fraction,
+                                     const VectorField& velocity, double dt) {
+  Field& rhs = system_.right_hand_side;
+  std::size_t m = 0;
+  for_each_cell(domain_.size(), [&](int i, int j, int k) {
+    const std::ptrdiff_t n = rhs.index(i, j, k);
+    rhs[n] = term_norm_[n] = 0.0;
+    if (regions_.region_of_cell[m++] == GasRegions::none) return;
+    const double growth = (medium.cell_void_fraction[n] - old_void_fraction[n]) / dt;
+    rhs[n] = -domain_.open_share[n] * domain_.cell_volume() * growth;
+    term_norm_[n] = std::abs(rhs[n]);
+    for (int d = 0; d < 3; ++d) {
+      const Field& open = domain_.walls.open_area[d];
+      const auto flux = [&](std::ptrdiff_t face) {
+        return open[face] * face_void_fraction(medium, d, face) * velocity[d][face] *
+               domain_.face_area(d);
+      };
+      const double in = flux(n), out = flux(n + open.stride(d));
+      rhs[n] += in - out;
+      term_norm_[n] += std::abs(in) + std::abs(out);
+    }
+  });
+}
+
+void Projection::add_outlets() {
+  for_each_cell(domain_.size(), [&](int i, int j, int k) {
+    system_.right_hand_side(i, j, k) += outlet_term_(i, j, k);
+  });
+}
+
+double Projection::remove_means() {
+  if (!regions_.any_singular()) return 0.0;
+  const std::vector<double> sums =
+      sum_per_region(domain_.decomposition, regions_, system_.right_hand_side);
+  const std::vector<double> norms = sum_per_region(domain_.decomposition, regions_, term_norm_);
+  std::vector<double> mean(sums.size(), 0.0);
+  double largest = 0.0;
+  for (std::size_t r = 0; r < sums.size(); ++r) {
+    if (regions_.regions[r].has_outlet || norms[r] == 0.0) continue;
+    const double imbalance = std::abs(sums[r]) / norms[r];
+    if (imbalance > largest_imbalance) {
+      std::ostringstream message;
+      message << "the gas around " << place(domain_, regions_.regions[r].first_cell)
+              << " has no outlet but would have to " << (sums[r] > 0 ? "lose " : "gain ")
+              << std::abs(sums[r]) << " m^3/s (" << imbalance << " of what moves in it, allowed is "
+              << largest_imbalance
+              << "); give it an outlet, or check its inlets and the bodies that seal it";
+      throw UserError(message.str());
+    }
+    largest = std::max(largest, imbalance);
+    mean[r] = sums[r] / regions_.regions[r].cells;
+  }
+  std::size_t m = 0;
+  for_each_cell(domain_.size(), [&](int i, int j, int k) {
+    const int region = regions_.region_of_cell[m++];
+    if (region != GasRegions::none) system_.right_hand_side(i, j, k) -= mean[region];
+  });
+  return largest;
+}
+
+void Projection::remove_pressure_means(Field& pressure) const {
+  if (!regions_.any_singular()) return;
+  std::vector<double> mean = sum_per_region(domain_.decomposition, regions_, pressure);
+  for (std::size_t r = 0; r < mean.size(); ++r) {
+    mean[r] = regions_.regions[r].has_outlet ? 0.0 : mean[r] / regions_.regions[r].cells;
+  }
+  std::size_t m = 0;
+  for_each_cell(domain_.size(), [&](int i, int j, int k) {
+    const int region = regions_.region_of_cell[m++];
+    if (region != GasRegions::none) pressure(i, j, k) -= mean[region];
+  });
+  fill_ghosts(domain_.decomposition, pressure);
+}
+
+// A residual above the tolerance passes only when it is round-off of its own evaluation.
+void Projection::check(const PressureReport& report, const Field& pressure) const {
+  if (report.residual <= tolerance_) return;
+  double evaluation = 0.0, rhs = 0.0;
+  for_each_cell(domain_.size(), [&](int i, int j, int k) {
+    const std::ptrdiff_t n = pressure.index(i, j, k);
+    double sum = system_.diagonal[n] * std::abs(pressure[n]);
+    for (int d = 0; d < 3; ++d) {
+      const Field& t = system_.transmissibility[d];
+      const std::ptrdiff_t s = t.stride(d);
+      sum += t[n] * (std::abs(pressure[n]) + std::abs(pressure[n - s])) +
+             t[n + s] * (std::abs(pressure[n]) + std::abs(pressure[n + s]));
+    }
+    evaluation += sum * sum;
+    rhs += system_.right_hand_side[n] * system_.right_hand_side[n];
+  });
+  evaluation = std::sqrt(sum_over_ranks(domain_.decomposition, evaluation));
+  rhs = std::sqrt(sum_over_ranks(domain_.decomposition, rhs));
+  const double epsilon = std::numeric_limits<double>::epsilon();
+  if (report.residual * rhs <= round_off_margin * epsilon * evaluation) return;
+  std::ostringstream message;
+  message << "the pressure equation is not solved: residual " << report.residual << " after "
+          << report.iterations << " iterations, numerics.pressure_tolerance is " << tolerance_
+          << "; raise numerics.pressure_iterations (now " << max_iterations_
+          << "), take a smaller step or allow a larger residual";
+  throw UserError(message.str());
+}
+
+void Projection::set_gradient(const Field& pressure) {
+  for (int d = 0; d < 3; ++d) {
+    Field& gradient = gradient_[d];
+    const Field& part = domain_.walls.takes_part[d];
+    const double scale = 1.0 / domain_.spacing[d];
+    for_each_in(inner_faces(domain_, d), [&](int i, int j, int k) {
+      const std::ptrdiff_t n = pressure.index(i, j, k);
+      gradient[n] = part[n] * scale * (pressure[n] - pressure[n - pressure.stride(d)]);
+    });
+    for (int side = 0; side < 2; ++side) {
+      if (!domain_.is_outlet(d, side) || !domain_.decomposition.at_boundary(d, side)) continue;
+      const double outside = domain_.boundaries[d][side].pressure;
+      for_each_in(plane_of(domain_, d, domain_.side_layer(d, side)), [&](int i, int j, int k) {
+        const std::ptrdiff_t cell = pressure.index(i, j, k);
+        const std::ptrdiff_t n = cell + (side == 1 ? pressure.stride(d) : 0);
+        const double rise = side == 1 ? outside - pressure[cell] : pressure[cell] - outside;
+        gradient[n] = part[n] * 2.0 * scale * rise;
+      });
+    }
+  }
+  fill_ghosts(domain_.decomposition, gradient_);
+}
+
+Projection::Report Projection::solve(const FaceMedium& medium, const Field& old_void_fraction,
+                                     const VectorField& velocity, double dt, Field& pressure) {
+  Report report;
+  set_coefficients(medium, dt);
+  set_right_hand_side(medium, old_void_fraction, velocity, dt);
+  report.removed_mean = remove_means();
+  add_outlets();
+  report.solve = solver_->solve(system_, tolerance_, max_iterations_, pressure);
+  check(report.solve, pressure);
+  remove_pressure_means(pressure);
+  set_gradient(pressure);
+  return report;
+}
+
+void Projection::correct(VectorField& velocity, const FaceMedium& medium, double dt) const {
+  for (int d = 0; d < 3; ++d) {
+    if (!domain_.solved[d]) continue;
+    for_each_face(domain_.decomposition, d, [&](int i, int j, int k) {
+      const std::ptrdiff_t n = velocity[d].index(i, j, k);
+      velocity[d][n] -= mobility(medium, domain_.gas.density, dt, d, n) * gradient_[d][n];
+    });
+  }
+}
+
+double Projection::divergence(const FaceMedium& medium, const Field& old_void_fraction,
+                              const VectorField& velocity, double dt) const {
+  double largest = 0.0;
+  std::size_t m = 0;
+  for_each_cell(domain_.size(), [&](int i, int j, int k) {
+    if (regions_.region_of_cell[m++] == GasRegions::none) return;
+    const std::ptrdiff_t n = old_void_fraction.index(i, j, k);
+    const double open = domain_.open_share[n], eps = medium.cell_void_fraction[n];
+    double change = open * (eps - old_void_fraction[n]);
+    for (int d = 0; d < 3; ++d) {
+      const Field& area = domain_.walls.open_area[d];
+      const auto flux = [&](std::ptrdiff_t face) {
+        return area[face] * face_void_fraction(medium, d, face) * velocity[d][face];
+      };
+      change += dt / domain_.spacing[d] * (flux(n + area.stride(d)) - flux(n));
+    }
+    largest = std::max(largest, std::abs(change) / (open * eps));
+  });
+  return max_over_ranks(domain_.decomposition, largest);
+}
+
+}  // namespace gasgrain::cfd

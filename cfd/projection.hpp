@@ -1,0 +1,61 @@
+// Steps 4 and 5 of the scheme: the pressure that makes the predicted velocity continuous.
+#pragma once
+
+#include <memory>
+
+#include "cfd/face_medium.hpp"
+#include "cfd/gas_domain.hpp"
+#include "cfd/gas_regions.hpp"
+#include "cfd/pressure_solver.hpp"
+
+namespace gasgrain::cfd {
+
+class Projection {
+ public:
+  struct Report {
+    PressureReport solve;
+    double removed_mean = 0.0;  // largest of the singular regions, relative to the 1-norm of the
+                                // right-hand side's terms
+  };
+
+  Projection(const GasDomain& domain, const Numerics& numerics);
+
+  // Solves for `pressure` (first guess in, ghosts filled out). `velocity` is u* with ghosts filled;
+  // `old_void_fraction` is eps of the cells at the start of the step. Throws UserError when the
+  // tolerance is missed or a region without outlet would have to gain or lose gas.
+  Report solve(const FaceMedium& medium, const Field& old_void_fraction,
+               const VectorField& velocity, double dt, Field& pressure);
+
+  // u = u* - (c/eps) grad p on the faces that take part.
+  void correct(VectorField& velocity, const FaceMedium& medium, double dt) const;
+
+  // grad p on faces, Pa/m, 0 on those that do not take part; ghosts filled. Of the last solve().
+  const VectorField& pressure_gradient() const { return gradient_; }
+
+  // Largest |change of the void + dt * outflow| of a cell over its void. Collective.
+  double divergence(const FaceMedium& medium, const Field& old_void_fraction,
+                    const VectorField& velocity, double dt) const;
+
+ private:
+  void find_regions();
+  void set_coefficients(const FaceMedium& medium, double dt);
+  void set_right_hand_side(const FaceMedium& medium, const Field& old_void_fraction,
+                           const VectorField& velocity, double dt);
+  void add_outlets();
+  double remove_means();
+  void remove_pressure_means(Field& pressure) const;
+  void check(const PressureReport& report, const Field& pressure) const;
+  void set_gradient(const Field& pressure);
+
+  const GasDomain& domain_;
+  double tolerance_;
+  int max_iterations_;
+  std::unique_ptr<PressureSolver> solver_;
+  PressureSystem system_;
+  Field term_norm_;    // sum of |terms| of the right-hand side per cell
+  Field outlet_term_;  // coefficient times pressure of the outlets, m^3/s
+  GasRegions regions_;
+  VectorField gradient_;
+};
+
+}  // namespace gasgrain::cfd

@@ -1,0 +1,88 @@
+// Normal stresses sit in cell centres, shear stresses on cell edges, where the void fraction is the
+// mean of the open parts of the four cells around. The full stress is needed: with a varying void
+// fraction div u is not zero and the transposed part does not vanish.
+//
+// The normal stress of an outlet face does not change across its half control volume.
+#include "cfd/viscous_stress.hpp"
+
+namespace gasgrain::cfd {
+
+namespace {
+
+// Void fraction on cell edges from the open volumes of the cells.
+struct EdgeMean {
+  const double* open;  // 1 - alpha
+  const double* gas;   // (1 - alpha) eps
+  double operator()(std::ptrdiff_t n, std::ptrdiff_t a, std::ptrdiff_t b) const {
+    const double volume = open[n] + open[n - a] + open[n - b] + open[n - a - b];
+    return volume > 0.0 ? (gas[n] + gas[n - a] + gas[n - b] + gas[n - a - b]) / volume : 1.0;
+  }
+};
+
+struct NoGrains {
+  double operator()(std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t) const { return 1.0; }
+};
+
+// Component d, change along e of the shear stress.
+template <class Edge>
+void add_shear(Field& slope, const GasDomain& domain, const Edge& edge, const VectorField& velocity,
+               int d, int e) {
+  const double* u = velocity[d].data();
+  const double* v = velocity[e].data();
+  const double* part = domain.walls.takes_part[d].data();
+  double* result = slope.data();
+  const std::ptrdiff_t a = slope.stride(e), c = slope.stride(d);
+  const double h = domain.spacing[e], transposed = domain.solved[e] ? h / domain.spacing[d] : 0.0;
+  const double scale = domain.gas.viscosity / (h * h);
+  for_each_row(all_faces(domain, d), slope, [=](std::ptrdiff_t row, int length) {
+    for (std::ptrdiff_t n = row; n < row + length; ++n) {
+      const double hi = u[n + a] - u[n] + transposed * (v[n + a] - v[n + a - c]);
+      const double lo = u[n] - u[n - a] + transposed * (v[n] - v[n - c]);
+      result[n] += part[n] * scale * (edge(n + a, a, c) * hi - edge(n, a, c) * lo);
+    }
+  });
+}
+
+void add_normal_stress(Field& slope, const GasDomain& domain, const FaceMedium& medium,
+                       const VectorField& velocity, int d) {
+  const double* u = velocity[d].data();
+  const double* eps = medium.cell_void_fraction.data();
+  const double* part = domain.walls.takes_part[d].data();
+  double* result = slope.data();
+  const std::ptrdiff_t c = slope.stride(d);
+  const double scale = 2.0 * domain.gas.viscosity / (domain.spacing[d] * domain.spacing[d]);
+  for_each_row(inner_faces(domain, d), slope, [=](std::ptrdiff_t row, int length) {
+    for (std::ptrdiff_t n = row; n < row + length; ++n) {
+      const double difference = eps[n] * (u[n + c] - u[n]) - eps[n - c] * (u[n] - u[n - c]);
+      result[n] += part[n] * scale * difference;
+    }
+  });
+}
+
+template <class Edge>
+void add(VectorField& slope, const GasDomain& domain, const FaceMedium& medium, const Edge& edge,
+         const VectorField& velocity) {
+  for (int d = 0; d < 3; ++d) {
+    if (!domain.solved[d]) continue;
+    if (domain.varies[d]) add_normal_stress(slope[d], domain, medium, velocity, d);
+    for (int e = 0; e < 3; ++e) {
+      if (e != d && domain.varies[e]) add_shear(slope[d], domain, edge, velocity, d, e);
+    }
+  }
+}
+
+}  // namespace
+
+void add_viscous_stress(VectorField& slope, const GasDomain& domain, const FaceMedium& medium,
+                        const VectorField& velocity) {
+  if (domain.gas.viscosity == 0.0) return;
+  if (!medium.has_grains) {
+    add(slope, domain, medium, NoGrains{}, velocity);
+    return;
+  }
+  Field gas = domain.open_share;
+  for (std::size_t n = 0; n < gas.count(); ++n) gas[n] *= medium.cell_void_fraction[n];
+  add(slope, domain, medium, EdgeMean{domain.open_share.data(), gas.data()}, velocity);
+}
+
+}  // namespace gasgrain::cfd
