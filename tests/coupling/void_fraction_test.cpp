@@ -1,0 +1,158 @@
+#include "coupling/void_fraction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cfd/loops.hpp"
+#include "coupling/shared/error.hpp"
+#include "mapping_fixture.hpp"
+
+namespace gasgrain::coupling {
+namespace {
+
+TEST(SplineWeights, are_the_quadratic_b_spline) {
+  for (const double offset : {-0.5, -0.2, 0.0, 0.31, 0.5}) {
+    const auto w = spline_weights(offset);
+    EXPECT_NEAR(w[0] + w[1] + w[2], 1.0, 1e-15);
+    EXPECT_NEAR(w[2] - w[0], offset, 1e-15);                  // first moment
+    EXPECT_NEAR(w[0] + w[2] - offset * offset, 0.25, 1e-15);  // variance
+    for (const double weight : w) EXPECT_GE(weight, 0.0);
+  }
+}
+
+TEST(SplineWeights, are_continuous_from_cell_to_cell) {
+  const auto left = spline_weights(0.5), right = spline_weights(-0.5);
+  EXPECT_DOUBLE_EQ(left[1], right[0]);
+  EXPECT_DOUBLE_EQ(left[2], right[1]);
+}
+
+struct Mapped {
+  std::vector<Vec3> mine;  // this rank's grains
+  std::vector<std::array<double, 1>> volumes;
+  cfd::Field cells;  // deposited volume per open volume
+};
+
+Mapped deposit_volumes(const MappingScene& scene, Deposition& deposition, int count) {
+  Mapped result;
+  int number = 0;
+  for (const Vec3& x : scene.places(count)) {
+    ++number;
+    if (!scene.owns(x)) continue;
+    result.mine.push_back(x);
+    result.volumes.push_back({1e-5 * (1 + 0.3 * std::sin(number))});
+  }
+  deposition.locate(result.mine);
+  result.cells = cfd::Field(scene.decomposition.block().size);
+  deposition.deposit<1>({&result.cells}, result.volumes);
+  return result;
+}
+
+TEST(Deposition, conserves_solid_volume_with_cut_cells) {
+  const MappingScene scene;
+  Deposition deposition(scene.decomposition, scene.walls);
+  for (const double width : {0.05, 0.096, 0.3}) {  // none, three and many sweeps
+    deposition.set_width(width);
+    const Mapped mapped = deposit_volumes(scene, deposition, 2000);
+    double given = 0, deposited = 0;
+    for (const auto& volume : mapped.volumes) given += volume[0];
+    cfd::for_each_cell(mapped.cells.size(), [&](int i, int j, int k) {
+      deposited += deposition.open_fraction()(i, j, k) * mapped.cells(i, j, k);
+      if (deposition.open_fraction()(i, j, k) == 0) {
+        EXPECT_EQ(mapped.cells(i, j, k), 0.0);
+      }
+    });
+    deposited *= scene.grid.cell_volume();
+    EXPECT_NEAR(scene.sum(deposited) / scene.sum(given), 1.0, 2e-14);
+  }
+}
+
+// <D x, y> = <x, D^T y> with the open volumes as weights of cells.
+TEST(Deposition, gather_is_its_transpose) {
+  const MappingScene scene;
+  Deposition deposition(scene.decomposition, scene.walls);
+  deposition.set_width(0.13);
+  const Mapped mapped = deposit_volumes(scene, deposition, 500);
+  cfd::Field y(scene.decomposition.block().size);
+  const cfd::Block& block = scene.decomposition.block();
+  double left = 0, magnitude = 0;
+  cfd::for_each_cell(block.size, [&](int i, int j, int k) {
+    y(i, j, k) = std::sin(1.0 + 3.1 * (i + block.lower[0]) + 1.7 * (j + block.lower[1]) +
+                          0.3 * (k + block.lower[2]));
+    left += deposition.open_fraction()(i, j, k) * mapped.cells(i, j, k) * y(i, j, k);
+  });
+  left *= scene.grid.cell_volume();
+  std::vector<std::array<double, 1>> gathered(mapped.mine.size());
+  deposition.gather<1>(gathered, {&y});
+  double right = 0;
+  for (std::size_t n = 0; n < gathered.size(); ++n) {
+    right += mapped.volumes[n][0] * gathered[n][0];
+    magnitude += std::abs(mapped.volumes[n][0] * gathered[n][0]);
+  }
+  EXPECT_NEAR(scene.sum(left), scene.sum(right), 1e-14 * scene.sum(magnitude));
+}
+
+TEST(Deposition, gathers_a_constant_exactly_next_to_walls) {
+  const MappingScene scene;
+  Deposition deposition(scene.decomposition, scene.walls);
+  deposition.set_width(0.13);
+  const Mapped mapped = deposit_volumes(scene, deposition, 500);
+  cfd::Field constant(scene.decomposition.block().size, 2.5);
+  std::vector<std::array<double, 1>> gathered(mapped.mine.size());
+  deposition.gather<1>(gathered, {&constant});
+  for (std::size_t n = 0; n < gathered.size(); ++n) {
+    if (deposition.takes_part(n)) {
+      EXPECT_NEAR(gathered[n][0], 2.5, 1e-13);
+    }
+  }
+}
+
+// Several components at once are the same as one after the other.
+TEST(Deposition, components_do_not_mix) {
+  const MappingScene scene;
+  Deposition deposition(scene.decomposition, scene.walls);
+  deposition.set_width(0.1);
+  const Mapped mapped = deposit_volumes(scene, deposition, 300);
+  std::vector<std::array<double, 4>> amounts;
+  for (const auto& volume : mapped.volumes) {
+    amounts.push_back({0.0, volume[0], 0.0, 2 * volume[0]});
+  }
+  std::array<cfd::Field, 4> fields;
+  fields.fill(cfd::Field(scene.decomposition.block().size));
+  deposition.deposit<4>({&fields[0], &fields[1], &fields[2], &fields[3]}, amounts);
+  cfd::for_each_cell(mapped.cells.size(), [&](int i, int j, int k) {
+    EXPECT_EQ(fields[0](i, j, k), 0.0);
+    EXPECT_NEAR(fields[1](i, j, k), mapped.cells(i, j, k), 1e-14);
+    EXPECT_NEAR(fields[3](i, j, k), 2 * mapped.cells(i, j, k), 1e-14);
+  });
+}
+
+// Every rank maps all grains on the whole grid by itself and compares its block.
+TEST(Deposition, does_not_depend_on_the_ranks) {
+  for (const bool periodic : {false, true}) {
+    const std::array<bool, 3> sides{periodic, periodic, false};
+    const MappingScene scene({13, 9, 11}, sides);
+    const MappingScene alone({13, 9, 11}, sides, {MappingScene::cylinder()}, MPI_COMM_SELF);
+    Deposition shared_deposition(scene.decomposition, scene.walls);
+    Deposition own_deposition(alone.decomposition, alone.walls);
+    shared_deposition.set_width(0.13);
+    own_deposition.set_width(0.13);
+    const Mapped shared = deposit_volumes(scene, shared_deposition, 1000);
+    const Mapped own = deposit_volumes(alone, own_deposition, 1000);
+    const cfd::Block& block = scene.decomposition.block();
+    cfd::for_each_cell(block.size, [&](int i, int j, int k) {
+      EXPECT_NEAR(shared.cells(i, j, k),
+                  own.cells(i + block.lower[0], j + block.lower[1], k + block.lower[2]), 1e-14);
+    });
+  }
+}
+
+TEST(Deposition, refuses_a_grain_of_another_rank) {
+  const MappingScene scene;
+  Deposition deposition(scene.decomposition, scene.walls);
+  const std::vector<Vec3> outside{scene.grid.lower - Vec3(1, 1, 1)};
+  EXPECT_THROW(deposition.locate(outside), InternalError);
+}
+
+}  // namespace
+}  // namespace gasgrain::coupling
