@@ -17,6 +17,7 @@
 #include <universe.h>
 
 #include "coupling/fatal_error.hpp"
+#include "coupling/fix_couple_gas.h"
 #include "coupling/shared/error.hpp"
 #include "liggghts_plugins/register.hpp"
 
@@ -63,11 +64,17 @@ std::string help_text() {
 }
 
 void register_all_styles(LAMMPS& liggghts) {
+  using gasgrain::coupling::FixCoupleGas;
   gasgrain::plugins::register_styles(liggghts);
+  gasgrain::plugins::register_fix(liggghts, "couple/gas",
+                                  gasgrain::plugins::create_fix<FixCoupleGas>);
 }
 
 void describe_all_styles() {
   gasgrain::plugins::describe_plugin_styles();
+  gasgrain::plugins::describe_style({"fix ID group couple/gas case CASE.toml [out DIR]",
+                                     "gas of a case file that flows through the grains",
+                                     "docs/coupling.md"});
 }
 
 void print_on_first_rank(const std::string& text) {
