@@ -3,7 +3,8 @@
 // phi is 1-Lipschitz: |phi(x) - phi(y)| <= |x - y|. So a brick whose centre has |phi| > band + half
 // its diagonal lies outside of the band everywhere and |phi| minus half the diagonal bounds all of
 // it; and neighbouring samples of a true distance differ by one spacing at most, whereas a field
-// with a hole changes its sign by a jump.
+// with a hole changes its sign by a jump. Jumps without change of sign beyond the band are
+// harmless: there a shape made of another sampled field returns bounds.
 #include "coupling/shared/sampling.hpp"
 
 #include <cmath>
@@ -79,6 +80,27 @@ std::string text(const Vec3& x) {
   return out.str();
 }
 
+void check_box(const SignedDistance& shape, const SamplingBox& box) {
+  const Vec3 size = box.upper - box.lower;
+  if (!(size.minCoeff() > 0)) {
+    throw UserError("sampling box from " + text(box.lower) + " to " + text(box.upper) +
+                    " is empty; every upper coordinate must exceed the lower one");
+  }
+  std::ostringstream message;
+  const double bricks = (size / (cells * box.spacing)).array().ceil().prod();
+  if (bricks > most_bricks) {
+    message << "sampling box of " << text(size) << " m needs " << bricks
+            << " bricks at a spacing of " << box.spacing << " m, more than " << most_bricks
+            << "; choose a larger spacing";
+    throw UserError(message.str());
+  }
+  if (box.band > shape.resolved_range()) {
+    message << "the band is " << box.band << " m, but the file that the body is made of resolves "
+            << shape.resolved_range() << " m only; give a narrower band";
+    throw UserError(message.str());
+  }
+}
+
 class ClosedCheck {
  public:
   ClosedCheck(const BrickSamples& data, const std::string& name) : data_(data), name_(name) {}
@@ -130,7 +152,11 @@ class ClosedCheck {
         std::array<int, 3> next = point;
         if (++next[d] == points) continue;
         const double there = value(brick, next);
-        if (std::abs(here - there) > allowed) fail(position(data_, brick, point), here, there);
+        const bool matters =
+            here * there < 0 || std::min(std::abs(here), std::abs(there)) < data_.band;
+        if (matters && std::abs(here - there) > allowed) {
+          fail(position(data_, brick, point), here, there);
+        }
       }
     });
   }
@@ -165,24 +191,14 @@ class ClosedCheck {
 
 SampledDistance sample_shape(const SignedDistance& shape, const SamplingBox& box) {
   GASGRAIN_ASSERT(box.spacing > 0 && box.band > 0);
+  check_box(shape, box);
   BrickSamples data;
   data.lower = box.lower;
   data.spacing = box.spacing;
   data.band = box.band;
   data.cut = box.cut;
-  const Vec3 size = box.upper - box.lower;
-  if (!(size.minCoeff() > 0)) {
-    throw UserError("sampling box from " + text(box.lower) + " to " + text(box.upper) +
-                    " is empty; every upper coordinate must exceed the lower one");
-  }
-  const Vec3 bricks = (size / (cells * box.spacing) - Vec3::Constant(1e-9)).array().ceil();
-  if (bricks.prod() > most_bricks) {
-    std::ostringstream message;
-    message << "sampling box of " << text(size) << " m needs " << bricks.prod()
-            << " bricks at a spacing of " << box.spacing << " m, more than " << most_bricks
-            << "; choose a larger spacing";
-    throw UserError(message.str());
-  }
+  const Vec3 bricks =
+      ((box.upper - box.lower) / (cells * box.spacing) - Vec3::Constant(1e-9)).array().ceil();
   for (int d = 0; d < 3; ++d) data.bricks[d] = std::max(1, static_cast<int>(bricks[d]));
   data.slot.assign(static_cast<std::size_t>(data.bricks[0]) * data.bricks[1] * data.bricks[2], -1);
   data.far_value.assign(data.slot.size(), 0.0);

@@ -21,7 +21,8 @@ inline double default_band(double spacing) {
 }
 
 // Samples `shape`, which must not change faster than distance does (|grad phi| <= 1), as primitives
-// and booleans do. Throws UserError when the box is empty or would need too many bricks.
+// and booleans do. Throws UserError when the box is empty, would need too many bricks, or the band
+// is wider than what `shape` resolves.
 SampledDistance sample_shape(const SignedDistance& shape, const SamplingBox& box);
 
 // Throws UserError "<name>: body not closed ..." when the field cannot be the signed distance of a

@@ -58,9 +58,11 @@ def main():
         # an SDF file serves as the body of another case
         with open(os.path.join(directory, "second.toml"), "w") as file:
             file.write('[[body]]\nname = "copy"\nfile = "ball.h5"\n')
-        copied = run(os.path.join(directory, "second.toml"), "--body", "copy", "--spacing", "1e-3",
-                     "--lower", "0.01", "0", "0.01", "--upper", "0.03", "0.01", "0.03",
-                     "-o", os.path.join(directory, "copy.h5"))
+        copy = [os.path.join(directory, "second.toml"), "--body", "copy", "--spacing", "1e-3",
+                "--lower", "0.01", "0", "0.01", "--upper", "0.03", "0.01", "0.03",
+                "-o", os.path.join(directory, "copy.h5")]
+        assert "give a narrower band" in run(*copy).stderr
+        copied = run(*copy, "--band", "2e-3")
         assert copied.returncode == 0, copied.stderr
 
         def fails(text, *arguments):

@@ -113,6 +113,20 @@ TEST(Sampling, RoundsTheBoxUpToWholeBricks) {
   EXPECT_GE(odd.upper()[1], 1.01);
 }
 
+TEST(Sampling, ASampledFieldCanBeSampledAgainWithinItsBand) {
+  const SampledDistance first = sampled(ball);
+  SamplingBox box{.lower = Vec3(-1, -1, -1),
+                  .upper = Vec3(1, 1, 1),
+                  .spacing = 0.07,
+                  .band = 0.2,
+                  .cut = false};
+  const SampledDistance second = sample_shape(first, box);
+  EXPECT_EQ(complaint(second), "");
+  EXPECT_NEAR(second.distance(Vec3(0.6, 0.2, 0)), std::hypot(0.6, 0.2) - 0.5, 0.005);
+  box.band = 0.21;
+  EXPECT_THROW(sample_shape(first, box), UserError);
+}
+
 TEST(Sampling, RejectsEmptyAndOversizedBoxes) {
   SamplingBox box{
       .lower = Vec3::Zero(), .upper = Vec3(1, 0, 1), .spacing = 0.1, .band = 1, .cut = false};
