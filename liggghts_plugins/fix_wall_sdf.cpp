@@ -6,6 +6,7 @@
 #include <neighbor.h>
 #include <update.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <sstream>
@@ -116,6 +117,20 @@ void FixWallSdf::init() {
   const ContactSettings* pair = pair_settings(*lmp);
   if (!own_exponent_ && pair) settings_.stiffness_exponent = pair->stiffness_exponent;
   contacts_ = GrainContactTable(*lmp, settings_, where_.c_str());
+  refuse_unresolved_grains();
+}
+
+// A grain reaches as far as its radius; further out a sampled field only knows a bound. Grains that
+// are still to be inserted count with the radius of their template.
+void FixWallSdf::refuse_unresolved_grains() const {
+  double radius = 0.0, smallest_radius = 0.0;
+  modify->max_min_rad(radius, smallest_radius);  // over all ranks
+  if (radius <= body_.shape->resolved_range()) return;
+  std::ostringstream message;
+  message << where_ << ": body '" << body_.name << "' is sampled with a band of "
+          << body_.shape->resolved_range() << " m, but grains have a radius of " << radius
+          << " m; sample it with a band of at least the largest grain radius";
+  throw UserError(message.str());
 }
 
 void FixWallSdf::setup(int vflag) {
@@ -128,21 +143,12 @@ void FixWallSdf::pre_neighbor() {
   candidates_.clear();
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
-    if (atom->radius[i] > body_.shape->resolved_range()) fail_unresolved(atom->radius[i]);
     const double reach = atom->radius[i] + neighbor->skin;
     if (body_.shape->distance(ConstColumn(atom->x[i])) < reach)
       candidates_.push_back(i);
     else
       displacement_[i].setZero();
   }
-}
-
-void FixWallSdf::fail_unresolved(double radius) const {
-  std::ostringstream message;
-  message << where_ << ": body '" << body_.name << "' is sampled with a band of "
-          << body_.shape->resolved_range() << " m, but a grain has a radius of " << radius
-          << " m; sample it with a band of at least the largest grain radius";
-  throw UserError(message.str());
 }
 
 void FixWallSdf::post_force(int) {

@@ -77,7 +77,7 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
 
   int read_body(int argument_count, char** arguments);
   void read_options(int argument_count, char** arguments);
-  [[noreturn]] void fail_unresolved(double radius) const;
+  void refuse_unresolved_grains() const;
   template <TangentialModel tangential>
   void apply_contacts(const TangentialStep& step);
   template <TangentialModel tangential>
