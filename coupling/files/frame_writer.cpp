@@ -1,6 +1,5 @@
 // Frames are written to a temporary name, closed, renamed, and only then entered in the index,
-// which is itself replaced by a rename. XDMF counts dimensions from the slowest, so everything that
-// belongs to the grid's directions is written in the order z, y, x.
+// which is itself replaced by a rename.
 #include "coupling/files/frame_writer.hpp"
 
 #include <cctype>
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "coupling/files/hdf5_file.hpp"
+#include "coupling/files/xdmf.hpp"
 #include "coupling/shared/error.hpp"
 
 namespace gasgrain {
@@ -54,59 +54,6 @@ void check_arrays(const std::vector<NamedArray>& arrays) {
   }
 }
 
-// Shortest text that reads back as the same number.
-std::string exact(double value) {
-  std::array<char, 32> text{};
-  for (int digits = 15; digits <= 17; ++digits) {
-    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-    if (std::stod(text.data()) == value) break;
-  }
-  return text.data();
-}
-
-std::string joined(const std::vector<std::uint64_t>& values) {
-  std::string text;
-  for (const std::uint64_t value : values) {
-    if (!text.empty()) text += ' ';
-    text += std::to_string(value);
-  }
-  return text;
-}
-
-std::string reversed(const Vec3& v) {
-  return exact(v[2]) + " " + exact(v[1]) + " " + exact(v[0]);
-}
-
-struct ElementType {
-  const char* name;
-  int bytes;
-};
-constexpr ElementType real{"Float", 8};
-constexpr ElementType integer{"Int", 8};
-
-std::string hdf_item(const std::string& location, const std::vector<std::uint64_t>& size,
-                     ElementType type = real) {
-  return "<DataItem Format=\"HDF\" Dimensions=\"" + joined(size) + "\" NumberType=\"" + type.name +
-         "\" Precision=\"" + std::to_string(type.bytes) + "\">" + location + "</DataItem>";
-}
-
-std::string three_numbers(const Vec3& v) {
-  return "<DataItem Format=\"XML\" Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\">" +
-         reversed(v) + "</DataItem>";
-}
-
-std::string attribute_element(const std::string& name, int components, const char* center,
-                              const std::string& item) {
-  return "        <Attribute Name=\"" + name + "\" AttributeType=\"" +
-         (components == 3 ? "Vector" : "Scalar") + "\" Center=\"" + center + "\">" + item +
-         "</Attribute>\n";
-}
-
-std::string grid_element(double time, const std::string& body) {
-  return "      <Grid Name=\"frame\" GridType=\"Uniform\">\n        <Time Value=\"" + exact(time) +
-         "\"/>\n" + body + "      </Grid>\n";
-}
-
 ArrayBlock cell_block(const GridFrame& frame) {
   ArrayBlock block;
   for (int d = 2; d >= 0; --d) {
@@ -143,22 +90,6 @@ std::vector<std::int64_t> vertices(const ArrayBlock& block) {
   return result;
 }
 
-std::string polyvertex_elements(const std::string& file, std::uint64_t grains) {
-  return "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" +
-         std::to_string(grains) + "\" NodesPerElement=\"1\">" +
-         hdf_item(file + ":/vertex", {grains}, integer) +
-         "</Topology>\n        <Geometry GeometryType=\"XYZ\">" +
-         hdf_item(file + ":/position", {grains, 3}) + "</Geometry>\n";
-}
-
-std::string corectmesh_elements(const GridFrame& frame) {
-  std::vector<std::uint64_t> nodes;
-  for (int d = 2; d >= 0; --d) nodes.push_back(static_cast<std::uint64_t>(frame.cells[d]) + 1);
-  return "        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"" + joined(nodes) +
-         "\"/>\n        <Geometry GeometryType=\"ORIGIN_DXDYDZ\">" + three_numbers(frame.lower) +
-         three_numbers(frame.spacing) + "</Geometry>\n";
-}
-
 void replace_file(const std::string& part, const std::string& path) {
   std::error_code error;
   std::filesystem::rename(part, path, error);
@@ -189,19 +120,19 @@ void FrameWriter::write(double time, const GridFrame& frame) {
   const ArrayBlock block = cell_block(frame);
   const int number = begin_frame(time);
   const std::string file = file_name(number);
-  std::string xml = corectmesh_elements(frame);
+  std::string xml = xdmf::grid_mesh(frame.cells, frame.lower, frame.spacing);
   run_on_all(comm_, [&] {
     Hdf5File out = Hdf5File::create(path(file) + ".part", comm_);
     out.write_attribute<double>("time", {time});
     for (const NamedArray& array : frame.arrays) {
       const ArrayBlock values = with_components(block, array.components);
       out.write(array.name, values, array.values);
-      xml += attribute_element(array.name, array.components, "Cell",
-                               hdf_item(file + ":/" + array.name, values.global));
+      xml += xdmf::attribute(array.name, array.components, xdmf::Center::cell,
+                             xdmf::hdf_item(file + ":/" + array.name, values.global));
     }
     out.close();
   });
-  finish_frame(time, number, grid_element(time, xml));
+  finish_frame(time, number, xdmf::frame(time, xml));
 }
 
 void FrameWriter::write(double time, const PointFrame& frame) {
@@ -210,9 +141,9 @@ void FrameWriter::write(double time, const PointFrame& frame) {
   const ArrayBlock positions = with_components(block, 3);
   const int number = begin_frame(time);
   const std::string file = file_name(number);
-  std::string xml =
-      polyvertex_elements(file, block.global.front()) +
-      attribute_element("id", 1, "Node", hdf_item(file + ":/id", block.global, integer));
+  std::string xml = xdmf::grain_mesh(file, block.global.front()) +
+                    xdmf::attribute("id", 1, xdmf::Center::grain,
+                                    xdmf::hdf_item(file + ":/id", block.global, xdmf::integer));
   run_on_all(comm_, [&] {
     Hdf5File out = Hdf5File::create(path(file) + ".part", comm_);
     out.write_attribute<double>("time", {time});
@@ -222,12 +153,12 @@ void FrameWriter::write(double time, const PointFrame& frame) {
     for (const NamedArray& array : frame.arrays) {
       const ArrayBlock values = with_components(block, array.components);
       out.write(array.name, values, array.values);
-      xml += attribute_element(array.name, array.components, "Node",
-                               hdf_item(file + ":/" + array.name, values.global));
+      xml += xdmf::attribute(array.name, array.components, xdmf::Center::grain,
+                             xdmf::hdf_item(file + ":/" + array.name, values.global));
     }
     out.close();
   });
-  finish_frame(time, number, grid_element(time, xml));
+  finish_frame(time, number, xdmf::frame(time, xml));
 }
 
 std::vector<double> FrameWriter::times() const {
