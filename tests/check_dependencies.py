@@ -25,7 +25,7 @@ BOUNDARIES = {
     r"hdf5\.h|H5\w+\.h": ["coupling/files/hdf5_file.cpp"],
     r"HYPRE\w*\.h|_hypre\w*\.h": ["cfd/pressure_hypre.cpp"],
     r"Eigen/": ["coupling/shared/vec3.hpp", "cfd/multigrid.cpp"],  # there: a dense solve
-    r"CLI/": ["coupling/files/gasgrain_sdf.cpp", "cfd/gas_main.cpp", "coupling/gasgrain_main.cpp"],
+    r"CLI/": ["coupling/files/gasgrain_sdf.cpp", "cfd/gasgrain_gas.cpp", "coupling/gasgrain_main.cpp"],
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

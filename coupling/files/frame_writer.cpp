@@ -9,7 +9,6 @@
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <utility>
 
 #include "coupling/files/hdf5_file.hpp"

@@ -23,7 +23,16 @@ using DragClosure = double (*)(const DragInput&);
 // Re = eps rho |u-v| d0 / mu.
 double drag_gidaspow(const DragInput& input);
 
-// The closure of that name, or nullptr.
+// Di Felice (1994): drag of a single sphere times eps^-chi(Re).
+double drag_difelice(const DragInput& input);
+// Beetstra, van der Hoef, Kuipers (2007): lattice-Boltzmann simulations of sphere arrays.
+double drag_beetstra(const DragInput& input);
+// Hill, Koch, Ladd (2001) as given by Link et al. (2005): likewise.
+double drag_koch_hill(const DragInput& input);
+// Schiller & Naumann (1933): a single sphere, without influence of its neighbours.
+double drag_schiller_naumann(const DragInput& input);
+
+// The closure of that name (gidaspow, difelice, beetstra, koch-hill, schiller-naumann), or nullptr.
 DragClosure find_drag_closure(const std::string& name);
 std::vector<std::string> drag_closure_names();
 

@@ -122,7 +122,58 @@ TEST(DragGidaspow, RefusesAVoidFractionOutOfRange) {
   EXPECT_THROW(drag(0.5, 1e-3, -0.1), InternalError);
 }
 
+// beta/(1-eps) d0^2/mu of a closure at a given Re.
+double dimensionless(DragClosure closure, double void_fraction, double reynolds) {
+  const double diameter = 1e-3;
+  const double slip = reynolds * mu / (void_fraction * rho * diameter);
+  return closure({void_fraction, diameter, slip, rho, mu}) * diameter * diameter / mu;
+}
+
+TEST(DragClosures, OfASingleSlowSphereAreStokes) {
+  for (const DragClosure closure :
+       {drag_gidaspow, drag_beetstra, drag_koch_hill, drag_schiller_naumann}) {
+    EXPECT_DOUBLE_EQ(dimensionless(closure, 1.0, 0.0), 18.0);
+    EXPECT_NEAR(dimensionless(closure, 1.0, 1e-8), 18.0, 1e-3);
+  }
+  // Dallavalle's C_D = 4.8^2/Re instead of 24/Re
+  EXPECT_NEAR(dimensionless(drag_difelice, 1.0, 0.0), 0.75 * 4.8 * 4.8, 1e-12);
+}
+
+TEST(DragClosures, OfASingleSphereFollowTheStandardDragCurve) {
+  // C_D of a sphere: 4.1 at Re 10, 1.09 at Re 100 (Clift, Grace & Weber 1978)
+  for (const DragClosure closure : {drag_gidaspow, drag_difelice, drag_schiller_naumann}) {
+    EXPECT_NEAR(dimensionless(closure, 1.0, 10) / (0.75 * 10), 4.1, 0.15 * 4.1);
+    EXPECT_NEAR(dimensionless(closure, 1.0, 100) / (0.75 * 100), 1.09, 0.15 * 1.09);
+  }
+}
+
+TEST(DragClosures, OfASlowDenseBedLieBetweenErgunAndCarman) {
+  // constant (1-eps)/eps with 150 (Ergun) to 180 (Carman), and 15 % for a fit over all void
+  // fractions
+  const double shape = 0.58 / 0.42;
+  for (const DragClosure closure : {drag_gidaspow, drag_difelice, drag_beetstra, drag_koch_hill}) {
+    EXPECT_GT(dimensionless(closure, 0.42, 0.0), 0.85 * 150 * shape);
+    EXPECT_LT(dimensionless(closure, 0.42, 0.0), 1.15 * 180 * shape);
+  }
+  EXPECT_NEAR(dimensionless(drag_koch_hill, 0.42, 0.0), 180 * shape, 1e-9);
+}
+
+TEST(DragClosures, OfADenseBedAgreeWithErgunAtModerateReynolds) {
+  for (const double reynolds : {1.0, 10.0, 100.0}) {
+    const double ergun = dimensionless(drag_gidaspow, 0.42, reynolds);
+    for (const DragClosure closure : {drag_difelice, drag_beetstra, drag_koch_hill}) {
+      EXPECT_NEAR(dimensionless(closure, 0.42, reynolds), ergun, 0.3 * ergun) << reynolds;
+    }
+  }
+}
+
+TEST(DragClosures, KochHillJoinsItsBranchesAtFourTenths) {
+  const double below = dimensionless(drag_koch_hill, 0.6 + 1e-9, 0.0);
+  EXPECT_NEAR(dimensionless(drag_koch_hill, 0.6 - 1e-9, 0.0) / below, 1.0, 0.02);
+}
+
 TEST(DragClosures, AreFoundByTheirNames) {
+  EXPECT_EQ(find_drag_closure("koch-hill"), &drag_koch_hill);
   EXPECT_EQ(find_drag_closure("gidaspow"), &drag_gidaspow);
   EXPECT_EQ(find_drag_closure("gidaspov"), nullptr);
   for (const std::string& name : drag_closure_names()) {
