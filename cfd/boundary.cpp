@@ -28,7 +28,23 @@ Vec3 read_superficial_velocity(const ConfigTable& table, int direction, int side
   return velocity;
 }
 
+void reject_keys_of_other_types(const ConfigTable& table, BoundaryType type) {
+  if (type != BoundaryType::inlet && table.has("superficial_velocity")) {
+    table.fail("superficial_velocity", "belongs to an inlet; remove it or set type = \"inlet\"");
+  }
+  if (type != BoundaryType::outlet && table.has("pressure")) {
+    table.fail("pressure", "belongs to an outlet; remove it or set type = \"outlet\"");
+  }
+  if (type != BoundaryType::no_slip && table.has("wall_velocity")) {
+    table.fail("wall_velocity", "belongs to a no-slip side; remove it or set type = \"no-slip\"");
+  }
+}
+
 Boundary read_boundary(const ConfigTable& table, int direction, int side) {
+  for (const char* key : {"type", "superficial_velocity", "pressure", "wall_velocity"}) {
+    table.has(key);
+  }
+  table.reject_unknown_keys();
   Boundary boundary;
   boundary.type = type_of(table.choice("type", {"no-slip", "slip", "inlet", "outlet", "periodic"}));
   if (boundary.type == BoundaryType::inlet) {
@@ -43,7 +59,7 @@ Boundary read_boundary(const ConfigTable& table, int direction, int side) {
                  "own plane");
     }
   }
-  table.reject_unknown_keys();
+  reject_keys_of_other_types(table, boundary.type);
   return boundary;
 }
 
@@ -52,6 +68,10 @@ Boundary read_boundary(const ConfigTable& table, int direction, int side) {
 Boundaries read_boundaries(const ConfigTable& boundary_table) {
   static const std::string names[3][2] = {
       {"x_lower", "x_upper"}, {"y_lower", "y_upper"}, {"z_lower", "z_upper"}};
+  for (const auto& pair : names) {
+    for (const std::string& name : pair) boundary_table.has(name);
+  }
+  boundary_table.reject_unknown_keys();
   Boundaries boundaries;
   for (int d = 0; d < 3; ++d) {
     for (int side = 0; side < 2; ++side) {
@@ -64,7 +84,6 @@ Boundaries read_boundaries(const ConfigTable& boundary_table) {
                           "must be periodic too, because " + names[d][lower ? 0 : 1] + " is");
     }
   }
-  boundary_table.reject_unknown_keys();
   return boundaries;
 }
 

@@ -9,7 +9,14 @@ namespace gasgrain::cfd {
 
 namespace {
 
+// Keys first, so that a mistyped required key is named as such and not as missing.
+void expect_only(const ConfigTable& table, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) table.has(key);
+  table.reject_unknown_keys();
+}
+
 Grid read_grid(const ConfigTable& table) {
+  expect_only(table, {"lower", "upper", "cells"});
   Grid grid;
   grid.lower = table.vector("lower");
   grid.upper = table.vector("upper");
@@ -17,16 +24,15 @@ Grid read_grid(const ConfigTable& table) {
   if (!((grid.upper - grid.lower).minCoeff() > 0.0)) {
     table.fail("upper", "must exceed grid.lower in every component");
   }
-  table.reject_unknown_keys();
   return grid;
 }
 
 GasProperties read_gas(const ConfigTable& table) {
+  expect_only(table, {"density", "viscosity", "gravity"});
   GasProperties gas;
   gas.density = table.number("density", Range::positive());
   gas.viscosity = table.number("viscosity", Range::non_negative());
   gas.gravity = table.vector_or("gravity", gas.gravity);
-  table.reject_unknown_keys();
   return gas;
 }
 
@@ -39,6 +45,8 @@ Convection read_convection(const ConfigTable& table) {
 }
 
 Numerics read_numerics(const ConfigTable& table) {
+  expect_only(table, {"convection", "pressure_solver", "pressure_tolerance", "pressure_iterations",
+                      "courant_number", "ranks"});
   Numerics n;
   n.convection = read_convection(table);
   const std::string solver =
@@ -51,14 +59,13 @@ Numerics read_numerics(const ConfigTable& table) {
   n.courant_number = table.number_or("courant_number", n.courant_number,
                                      {.lower = 0.0, .upper = 0.25, .lower_open = true});
   if (table.has("ranks")) n.ranks = table.integers3("ranks", {.lower = 1, .upper = 1e6});
-  table.reject_unknown_keys();
   return n;
 }
 
 InitialState read_initial(const ConfigTable& table) {
+  expect_only(table, {"velocity"});
   InitialState initial;
   initial.velocity = table.vector_or("velocity", initial.velocity);
-  table.reject_unknown_keys();
   return initial;
 }
 
@@ -67,6 +74,7 @@ FixedBed read_fixed_bed(const ConfigTable& file, const Grid& grid) {
   bed.present = file.has("fixed_bed");
   if (!bed.present) return bed;
   const ConfigTable table = file.table("fixed_bed");
+  expect_only(table, {"void_fraction", "diameter", "lower", "upper", "drag"});
   bed.void_fraction = table.number(
       "void_fraction", {.lower = 0.0, .upper = 1.0, .lower_open = true, .upper_open = true});
   bed.diameter = table.number("diameter", Range::positive());
@@ -76,29 +84,33 @@ FixedBed read_fixed_bed(const ConfigTable& file, const Grid& grid) {
   if (!((bed.upper - bed.lower).minCoeff() > 0.0)) {
     table.fail("upper", "must exceed fixed_bed.lower in every component");
   }
-  table.reject_unknown_keys();
   return bed;
 }
 
 RunControl read_run(const ConfigTable& table) {
+  expect_only(table, {"end_time", "step"});
   RunControl run;
   run.end_time = table.number_or("end_time", run.end_time, Range::non_negative());
   run.step = table.number_or("step", run.step, Range::non_negative());
-  table.reject_unknown_keys();
   return run;
 }
 
 Output read_output(const ConfigTable& table) {
+  expect_only(table, {"directory", "interval"});
   Output output;
   output.directory = table.text_or("directory", output.directory);
   output.interval = table.number_or("interval", output.interval, Range::non_negative());
-  table.reject_unknown_keys();
   return output;
 }
 
 }  // namespace
 
 GasCase read_gas_case(const ConfigTable& file) {
+  for (const char* key : {"grid", "gas", "boundary", "body", "numerics", "initial", "fixed_bed",
+                          "run", "output", "coupling", "grains"}) {
+    file.has(key);
+  }
+  file.reject_unknown_keys();
   GasCase result;
   result.grid = read_grid(file.table("grid"));
   result.gas = read_gas(file.table("gas"));
@@ -109,9 +121,6 @@ GasCase read_gas_case(const ConfigTable& file) {
   result.fixed_bed = read_fixed_bed(file, result.grid);
   result.run = read_run(file.table_or_empty("run"));
   result.output = read_output(file.table_or_empty("output"));
-  for (const char* key : {"numerics", "initial", "run", "output", "coupling", "grains"}) {
-    file.has(key);  // known, also where a mistyped section looks for the nearest name
-  }
   return result;
 }
 

@@ -67,8 +67,7 @@ struct GasCase {
 };
 
 // Reads the sections grid, gas, boundary, body, numerics, initial, fixed_bed, run and output, and
-// leaves [coupling] to the coupling (marks it as known). The caller calls reject_unknown_keys() on
-// `file` afterwards. Throws UserError.
+// leaves [coupling] and [grains] to the coupling. Any other section is an error. Throws UserError.
 GasCase read_gas_case(const ConfigTable& file);
 
 }  // namespace gasgrain::cfd

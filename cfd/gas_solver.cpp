@@ -61,7 +61,7 @@ GrainPhase no_grains(const Index3& size) {
 struct GasSolver::State {
   State(const GasCase& given, MPI_Comm communicator);
 
-  void set_initial_velocity();
+  void set_velocity(const std::function<Vec3(const Vec3&)>& function);
   void evaluate_slope();
   void predict(double dt, const AdamsBashforth& weights);
   void check_finite(double dt, double speed_before) const;
@@ -88,17 +88,22 @@ GasSolver::State::State(const GasCase& given, MPI_Comm communicator)
       velocity(fields(domain.size())),
       pressure(domain.size()) {
   slope.total = old_slope.total = fields(domain.size());
-  set_initial_velocity();
+  set_velocity([&](const Vec3&) { return gas_case.initial.velocity; });
 }
 
-void GasSolver::State::set_initial_velocity() {
+void GasSolver::State::set_velocity(const std::function<Vec3(const Vec3&)>& function) {
+  const Index3& first = domain.decomposition.block().lower;
   for (int d = 0; d < 3; ++d) {
     for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
-      velocity[d](i, j, k) = domain.walls.takes_part[d](i, j, k) * gas_case.initial.velocity[d];
+      Vec3 steps(i + first[0] + 0.5, j + first[1] + 0.5, k + first[2] + 0.5);
+      steps[d] -= 0.5;
+      const Vec3 x = domain.decomposition.grid().lower + steps.cwiseProduct(domain.spacing);
+      velocity[d](i, j, k) = domain.walls.takes_part[d](i, j, k) * function(x)[d];
     });
   }
   set_solid_faces(velocity, domain);
   fill_velocity_ghosts(domain, medium, velocity);
+  previous_dt = 0.0;
 }
 
 void GasSolver::State::evaluate_slope() {
@@ -157,8 +162,7 @@ StepReport GasSolver::advance(double dt) {
   StepReport report;
   MomentumBudget& budget = report.momentum;
   const AdamsBashforth weights = adams_bashforth(dt, s.previous_dt);
-  const double rate_before = largest_courant_rate(domain, s.velocity);
-  const double speed_before = rate_before * domain.spacing.maxCoeff();
+  const double speed_before = largest_speeds(domain, s.velocity).maxCoeff();
   const Field old_void_fraction = s.medium.cell_void_fraction;
 
   s.evaluate_slope();
@@ -186,7 +190,9 @@ StepReport GasSolver::advance(double dt) {
   report.pressure = projected.solve;
   report.removed_mean = projected.removed_mean;
   report.divergence = s.projection.divergence(s.medium, old_void_fraction, s.velocity, dt);
-  report.courant_number = dt * largest_courant_rate(domain, s.velocity);
+  const Vec3 speeds = largest_speeds(domain, s.velocity);
+  report.largest_speed = speeds.maxCoeff();
+  report.courant_number = dt * speeds.cwiseQuotient(domain.spacing).maxCoeff();
   budget.stored = gas_momentum(domain, s.medium, s.velocity) - momentum_before;
   budget.convection =
       momentum_with_new_void - momentum_before +
@@ -196,6 +202,10 @@ StepReport GasSolver::advance(double dt) {
   add_pressure_reactions(budget, domain, s.pressure, s.projection.pressure_gradient(), dt);
   sum_over_ranks(domain.decomposition, budget);
   return report;
+}
+
+void GasSolver::set_velocity(const std::function<Vec3(const Vec3&)>& velocity) {
+  state_->set_velocity(velocity);
 }
 
 const GasCase& GasSolver::gas_case() const {

@@ -5,6 +5,7 @@
 // advance(). All calls are collective over the decomposition's communicator.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "cfd/field.hpp"
@@ -48,6 +49,7 @@ struct StepReport {
   double removed_mean = 0.0;    // of the pressure right-hand side, relative to the 1-norm of its
                                 // terms; 0 when the system is not singular
   double courant_number = 0.0;  // largest |u| dt / dx after the step
+  double largest_speed = 0.0;   // largest velocity component after the step, m/s
   MomentumBudget momentum;
 };
 
@@ -59,6 +61,10 @@ class GasSolver {
   const GasCase& gas_case() const;
   const Decomposition& decomposition() const;
   const WallGeometry& walls() const;
+
+  // Sets the velocity of all faces that take part from a function of position, m/s; the next step
+  // is the first of a run (Euler's). At construction the case's initial velocity is set.
+  void set_velocity(const std::function<Vec3(const Vec3&)>& velocity);
 
   // To be set before advance(); persists between steps.
   GrainPhase& grains();

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include "cfd/halo_exchange.hpp"
 #include "coupling/shared/error.hpp"
 
 namespace gasgrain::cfd {
@@ -25,14 +24,6 @@ double transport_step(double speed, double gravity, double distance) {
   return 2.0 * distance / (speed + std::sqrt(speed * speed + 4.0 * gravity * distance));
 }
 
-double largest_speed(const GasDomain& domain, const Field& component, int d) {
-  double largest = 0.0;
-  for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
-    largest = std::max(largest, std::abs(component(i, j, k)));
-  });
-  return max_over_ranks(domain.decomposition, largest);
-}
-
 }  // namespace
 
 AdamsBashforth adams_bashforth(double dt, double previous_dt) {
@@ -42,23 +33,27 @@ AdamsBashforth adams_bashforth(double dt, double previous_dt) {
   return {1.0 + 0.5 * r, -0.5 * r};
 }
 
-double largest_courant_rate(const GasDomain& domain, const VectorField& velocity) {
-  double rate = 0.0;
+Vec3 largest_speeds(const GasDomain& domain, const VectorField& velocity) {
+  Vec3 largest = Vec3::Zero();
   for (int d = 0; d < 3; ++d) {
-    rate = std::max(rate, largest_speed(domain, velocity[d], d) / domain.spacing[d]);
+    for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
+      largest[d] = std::max(largest[d], std::abs(velocity[d](i, j, k)));
+    });
   }
-  return rate;
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), 3, MPI_DOUBLE, MPI_MAX,
+                domain.decomposition.communicator());
+  return largest;
 }
 
 double largest_stable_step(const GasDomain& domain, const VectorField& velocity,
                            double courant_number) {
   const double nu = domain.gas.viscosity / domain.gas.density;
+  const Vec3 speeds = largest_speeds(domain, velocity);
   double step = std::numeric_limits<double>::infinity();
   for (int d = 0; d < 3; ++d) {
     const double h = domain.spacing[d];
     const double gravity = domain.solved[d] ? std::abs(domain.gas.gravity[d]) : 0.0;
-    const double speed = largest_speed(domain, velocity[d], d);
-    step = std::min(step, transport_step(speed, gravity, courant_number * h));
+    step = std::min(step, transport_step(speeds[d], gravity, courant_number * h));
     if (domain.varies[d] && nu > 0.0) {
       step = std::min(step, largest_diffusion_number * h * h / nu);
     }

@@ -16,8 +16,8 @@ struct AdamsBashforth {
 // 1 + r/2 and -r/2.
 AdamsBashforth adams_bashforth(double dt, double previous_dt);
 
-// Largest |u_d| / h_d over all faces, 1/s. Collective.
-double largest_courant_rate(const GasDomain& domain, const VectorField& velocity);
+// Largest |u_d| over all faces of each direction, m/s. Collective.
+Vec3 largest_speeds(const GasDomain& domain, const VectorField& velocity);
 
 // Largest step that keeps nu dt / h^2 <= 1/12 in every direction that varies, and the Courant
 // number below `courant_number` even after gravity has acted on the gas for the step, s. Infinite

@@ -1,0 +1,89 @@
+// gasgrain-gas CASE.toml: the gas solver on its own.
+#include <mpi.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+#include "cfd/collective_error.hpp"
+#include "cfd/gas_run.hpp"
+
+namespace {
+
+using gasgrain::ConfigTable;
+using gasgrain::UserError;
+using namespace gasgrain::cfd;
+
+struct Options {
+  std::string case_file;
+  std::string directory;  // "" = as the case says
+};
+
+int rank_of_world() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+// Nothing when the program has already said all there is to say; `code` is then its exit code.
+std::optional<Options> parse(int argc, char** argv, int& code) {
+  Options options;
+  CLI::App app(
+      "Gas flow through SDF bodies and fixed beds on a Cartesian grid. The case file is described "
+      "in docs/case_file.md.");
+  app.add_option("CASE.toml", options.case_file, "gas case file")->required();
+  app.add_option("--out", options.directory, "directory for files, instead of output.directory");
+  app.set_version_flag("--version", "gasgrain-gas " GASGRAIN_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream out, err;
+    code = app.exit(error, out, err);
+    if (rank_of_world() == 0) {
+      std::cout << out.str();
+      std::cerr << err.str();
+    }
+    return std::nullopt;
+  }
+  return options;
+}
+
+void run_case(const Options& options) {
+  GasCase gas_case;
+  run_collectively(MPI_COMM_WORLD, [&] {
+    const ConfigTable file = ConfigTable::parse_file(options.case_file);
+    gas_case = read_gas_case(file);
+    file.reject_unknown_keys();
+  });
+  if (!options.directory.empty()) gas_case.output.directory = options.directory;
+  GasRun(gas_case, MPI_COMM_WORLD).run();
+}
+
+// Every rank gets the same UserError, rank 0 prints it; anything else is ours and may have happened
+// on one rank only.
+int guarded_run(const Options& options) {
+  try {
+    run_case(options);
+    return 0;
+  } catch (const UserError& error) {
+    if (rank_of_world() == 0) std::cerr << "gasgrain-gas: error: " << error.what() << "\n";
+    return 1;
+  } catch (const std::exception& error) {
+    std::cerr << "gasgrain-gas: internal error on rank " << rank_of_world() << ": " << error.what()
+              << "\n";
+    MPI_Abort(MPI_COMM_WORLD, 2);
+    return 2;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int code = 0;
+  if (const std::optional<Options> options = parse(argc, argv, code)) code = guarded_run(*options);
+  MPI_Finalize();
+  return code;
+}
