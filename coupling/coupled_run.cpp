@@ -49,8 +49,6 @@ CoupledRun::CoupledRun(const Case& settings, const std::string& directory, DemHo
       host_(host),
       communicator_(communicator),
       coupling_(case_.gas, case_.options, communicator),
-      monitor_(coupling_.gas(), coupling_.deposition().open_fraction(),
-               vertical_of(host.gravity().isZero() ? case_.gas.gas.gravity : host.gravity())),
       series_schedule_(series_interval(case_.options, case_.gas.output)),
       frame_schedule_(case_.gas.output.interval > 0 ? case_.gas.output.interval
                                                     : std::numeric_limits<double>::infinity()),
@@ -61,6 +59,8 @@ CoupledRun::CoupledRun(const Case& settings, const std::string& directory, DemHo
 
 void CoupledRun::begin(std::span<Vec3> forces) {
   begun_ = true;
+  const Vec3 gravity = host_.gravity().isZero() ? case_.gas.gas.gravity : host_.gravity();
+  monitor_.emplace(coupling_.gas(), coupling_.deposition().open_fraction(), vertical_of(gravity));
   row_.exchange = coupling_.begin(forces, host_.records());
   held_force_ = row_.exchange.force_on_grains;
   audit_.begin(host_.totals(), case_.options.feedback);
@@ -116,18 +116,18 @@ void CoupledRun::exchange(std::span<Vec3> forces) {
 }
 
 void CoupledRun::observe_bed(const ExchangeReport& report) {
-  const int axis = monitor_.vertical().axis;
+  const int axis = monitor_->vertical().axis;
   row_.time = coupling_.gas().time();
   row_.bed = {.time = row_.time,
-              .height = monitor_.height(coupling_.void_fraction()),
-              .pressure_drop = monitor_.pressure_drop(),
+              .height = monitor_->height(coupling_.void_fraction()),
+              .pressure_drop = monitor_->pressure_drop(),
               .weight = report.solid_mass * std::abs(host_.gravity()[axis])};
-  row_.weight_over_area = row_.bed.weight / monitor_.cross_section();
+  row_.weight_over_area = row_.bed.weight / monitor_->cross_section();
   statistics_.note(row_.bed, report);
 }
 
 void CoupledRun::audit() {
-  const int axis = monitor_.vertical().axis;
+  const int axis = monitor_->vertical().axis;
   row_.grains = host_.totals();
   row_.balance = audit_.close(row_.grains, host_.take_wall_impulse(), host_.gravity());
   const double weight = std::abs(row_.balance.grain_weight[axis]);
@@ -148,7 +148,7 @@ void CoupledRun::choose_next_interval() {
 void CoupledRun::write_outputs(double time) {
   if (series_schedule_.due(time)) {
     audit();
-    if (files_) files_->add_row(series_values(row_, monitor_.vertical().axis));
+    if (files_) files_->add_row(series_values(row_, monitor_->vertical().axis));
   }
   if (frame_schedule_.due(time)) write_frame(time);
   if (progress_schedule_.due(time)) {
@@ -167,7 +167,7 @@ void CoupledRun::finish_run() {
   if (statistics_.extremes.exchanges == 0) return;  // run 0
   write_frame(row_.time);
   const WallTimes times = mean_wall_times();
-  const BedMeans means = bed_means(statistics_, monitor_, case_.options.average_from);
+  const BedMeans means = bed_means(statistics_, *monitor_, case_.options.average_from);
   host_.print(closing_text(row_, statistics_, times, means));
   if (files_) {
     files_->write({.case_name = case_.options.case_name,

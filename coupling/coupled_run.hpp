@@ -11,6 +11,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "coupling/bed_monitor.hpp"
@@ -75,7 +76,7 @@ class CoupledRun {
   DemHost& host_;
   MPI_Comm communicator_;
   GasCoupling coupling_;
-  BedMonitor monitor_;
+  std::optional<BedMonitor> monitor_;  // from begin() on: gravity is known
   MomentumAudit audit_;
   RunStatistics statistics_;
   std::unique_ptr<RunFiles> files_;  // null: no output directory

@@ -37,7 +37,7 @@ class DemHost {
   virtual ~DemHost() = default;
 
   virtual double step() const = 0;   // s
-  virtual Vec3 gravity() const = 0;  // m/s^2
+  virtual Vec3 gravity() const = 0;  // m/s^2; known from the set-up of the first run on
   virtual RunProgress progress() const = 0;
   // IDs of walls whose force nobody measures.
   virtual std::vector<std::string> unmeasured_walls() const = 0;

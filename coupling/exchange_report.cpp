@@ -47,9 +47,9 @@ double relative(double residual, double magnitude) {
 void add(cfd::MomentumBudget& sum, const cfd::MomentumBudget& budget) {
   using Row = Vec3 cfd::MomentumBudget::*;
   using Budget = cfd::MomentumBudget;
-  for (const Row row :
-       {&Budget::stored, &Budget::pressure, &Budget::pressure_on_grains, &Budget::gravity,
-        &Budget::convection, &Budget::viscous, &Budget::drag, &Budget::body}) {
+  for (const Row row : {&Budget::stored, &Budget::pressure, &Budget::pressure_on_grains,
+                        &Budget::gravity, &Budget::convection, &Budget::viscous, &Budget::drag,
+                        &Budget::body, &Budget::side_pressure, &Budget::body_pressure}) {
     sum.*row += budget.*row;
   }
 }
