@@ -94,7 +94,7 @@ class BadInput(unittest.TestCase):
                 self.assertEqual(len(errors), 1, run.text)
                 for word in words:
                     self.assertIn(word, errors[0])
-                self.assertEqual(run.log().count("ERROR"), 1)
+                self.assertEqual(run.log.count("ERROR"), 1)
 
     def test_one_rank(self):
         self.check(1)

@@ -34,10 +34,7 @@ def stock_liggghts():
 class Run:
     code: int
     text: str  # stdout and stderr
-    directory: pathlib.Path
-
-    def log(self):
-        return (self.directory / "log.txt").read_text()
+    log: str
 
 
 class Bench:
@@ -56,11 +53,13 @@ class Bench:
         if ranks > 1:
             command = [MPIEXEC, "--oversubscribe", "-n", str(ranks), *command]
         done = subprocess.run(command, cwd=self.directory, env=ENVIRONMENT, text=True,
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, timeout=240)
         if check and done.returncode != 0:
             raise AssertionError(f"{command} failed:\n{done.stdout[-3000:]}")
-        return Run(done.returncode, done.stdout, self.directory)
+        log = self.directory / "log.txt"
+        return Run(done.returncode, done.stdout,
+                   log.read_text(errors="replace") if log.exists() else "")
 
     def frames(self, name):
         return read_dump(self.directory / name)

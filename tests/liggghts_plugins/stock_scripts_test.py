@@ -117,7 +117,7 @@ class StockScripts(unittest.TestCase):
         logs = []
         for program in (stock_liggghts(), None):
             bench = Bench({"tetrahedron.stl": TETRAHEDRON})
-            logs.append([comparable(bench.run(s, ranks=ranks, program=program).log())
+            logs.append([comparable(bench.run(s, ranks=ranks, program=program).log)
                          for s in scripts])
         self.assertEqual(logs[0], logs[1])
         self.assertGreater(len(logs[1][0]), 20)

@@ -154,7 +154,7 @@ class RestingGrain(unittest.TestCase):
                    extra=f"fix gravity all gravity {g} vector {direction}\nthermo 150000\n"
                    f"thermo_style custom step {columns}\nthermo_modify format float %.15g\n")
             .replace(f"timestep {STEP}", "timestep 1e-6"))
-        row = thermo(result.log())[-1][1:]
+        row = thermo(result.log)[-1][1:]
         return {b: row[8 * n:8 * n + 8] for n, b in enumerate(bodies)}
 
     def test_in_a_box_corner_each_wall_carries_its_component(self):
