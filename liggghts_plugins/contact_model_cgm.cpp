@@ -100,18 +100,20 @@ template struct GrantAccess<PairSelectors, &PairFactoryBase::variantSelectorTabl
 template struct GrantAccess<WallSelectors, &WallFactoryBase::variantSelectorTable>;
 
 void register_contact_model_cgm() {
+  auto& pairs = LIGGGHTS::PairStyles::Factory::instance();
+  auto& walls = LIGGGHTS::Walls::Factory::instance();
+  // every LIGGGHTS instance sets the selectors anew
+  (pairs.*private_member(PairSelectors()))["gran"] = select_variant;
+  (walls.*private_member(WallSelectors()))["gran"] = select_variant;
+
   static bool registered = false;
   if (std::exchange(registered, true)) return;
   Names::instance().addNormalModel("cgm", cgm_identifier);
-  auto& pairs = LIGGGHTS::PairStyles::Factory::instance();
-  auto& walls = LIGGGHTS::Walls::Factory::instance();
   for (const auto model :
        {TangentialModel::off, TangentialModel::no_history, TangentialModel::history}) {
     pairs.addStyle("gran", static_cast<int>(variant_of(model)), create_pair);
     walls.addStyle("gran", static_cast<int>(variant_of(model)), create_wall);
   }
-  (pairs.*private_member(PairSelectors()))["gran"] = select_variant;
-  (walls.*private_member(WallSelectors()))["gran"] = select_variant;
 }
 
 TangentialModel tangential_model_of(int64_t variant) {

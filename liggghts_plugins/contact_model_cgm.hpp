@@ -8,7 +8,7 @@
 
 namespace gasgrain::plugins {
 
-// Registers the model with the factories of this process; later calls do nothing.
+// Registers the model with the factories of this process; call again for every LIGGGHTS instance.
 void register_contact_model_cgm();
 
 // The tangential model that a LIGGGHTS model variant of `model cgm` names.

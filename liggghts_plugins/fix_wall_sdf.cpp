@@ -13,7 +13,6 @@
 
 #include "coupling/files/sdf_file.hpp"
 #include "coupling/shared/error.hpp"
-#include "liggghts_plugins/contact_statistics.hpp"
 
 namespace gasgrain::plugins {
 
@@ -170,8 +169,14 @@ void FixWallSdf::post_force(int) {
     impulse_.start(load_.force);
   else
     impulse_.add_step(load_.force, update->dt);
-  contact_statistics().note(
-      {.length = load_.largest_overlap, .relative = load_.largest_relative_overlap});
+  contact_statistics().note(load_.largest);
+}
+
+void FixWallSdf::record_step(const Load& load) {
+  load_ = load;
+  totals_valid_ = false;
+  impulse_.add_step(load_.force, update->dt);
+  contact_statistics().note(load_.largest);
 }
 
 template <TangentialModel tangential>
@@ -205,13 +210,17 @@ void FixWallSdf::apply_contact(int i, const DistanceSample& wall, const Tangenti
   Column(atom->f[i]) += f;
   Column(atom->torque[i]) += lever * f_t.cross(n);
 
-  const Vec3 contact_point = ConstColumn(atom->x[i]) - lever * n;
-  load_.force -= f;
-  load_.torque -= contact_point.cross(f);
-  load_.contacts += 1;
-  load_.largest_overlap = std::max(load_.largest_overlap, overlap);
-  load_.largest_relative_overlap =
-      std::max(load_.largest_relative_overlap, overlap / (2.0 * radius));
+  load_.add(f, ConstColumn(atom->x[i]) - lever * n,
+            {.length = overlap, .relative = overlap / (2.0 * radius)});
+}
+
+void FixWallSdf::Load::add(const Vec3& force_on_grain, const Vec3& point,
+                           const LargestOverlap& overlap) {
+  force -= force_on_grain;
+  torque -= point.cross(force_on_grain);
+  contacts += 1;
+  largest.length = std::max(largest.length, overlap.length);
+  largest.relative = std::max(largest.relative, overlap.relative);
 }
 
 double FixWallSdf::compute_vector(int index) {
@@ -221,7 +230,7 @@ double FixWallSdf::compute_vector(int index) {
     Column(sums.data() + 3) = load_.torque;
     sums[6] = load_.contacts;
     MPI_Allreduce(sums.data(), totals_.data(), 7, MPI_DOUBLE, MPI_SUM, world);
-    MPI_Allreduce(&load_.largest_overlap, &totals_[7], 1, MPI_DOUBLE, MPI_MAX, world);
+    MPI_Allreduce(&load_.largest.length, &totals_[7], 1, MPI_DOUBLE, MPI_MAX, world);
     totals_valid_ = true;
   }
   return totals_.at(index);

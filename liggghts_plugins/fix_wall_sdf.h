@@ -29,6 +29,7 @@ FixStyle(wall/sdf,gasgrain::plugins::FixWallSdf)
 #include "coupling/shared/body.hpp"
 #include "liggghts_plugins/contact_properties.hpp"
 #include "liggghts_plugins/contact_settings.hpp"
+#include "liggghts_plugins/contact_statistics.hpp"
 #include "liggghts_plugins/grain_wall.hpp"
 #include "liggghts_plugins/sphere_contact.hpp"
 
@@ -65,15 +66,26 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   std::string wall_name() const override { return id; }
   Vec3 take_impulse() override { return impulse_.take(); }
 
- private:
-  // Sums over the contacts of this rank in the present step.
+  // For the fused engine, which computes the contacts itself between reneighbourings.
+  int wall_type() const { return wall_type_; }
+  TangentialModel tangential() const { return settings_.tangential; }
+  const GrainContactTable& contacts() const { return contacts_; }
+  const std::vector<int>& candidates() const { return candidates_; }  // ascending local indices
+  std::vector<Vec3>& displacements() { return displacement_; }        // of every local atom, m
+
+  // Sums over the contacts of this rank in one step.
   struct Load {
     Vec3 force = Vec3::Zero();   // on the body, N
     Vec3 torque = Vec3::Zero();  // on the body about the origin, N m
     double contacts = 0;
-    double largest_overlap = 0;           // m
-    double largest_relative_overlap = 0;  // of the grain diameter
+    LargestOverlap largest;
+    // `force` acts on a grain at `point`.
+    void add(const Vec3& force_on_grain, const Vec3& point, const LargestOverlap& overlap);
   };
+  // Makes `load` that of the present step; not in the set-up of a run.
+  void record_step(const Load& load);
+
+ private:
 
   int read_body(int argument_count, char** arguments);
   void read_options(int argument_count, char** arguments);

@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "coupling/shared/error.hpp"
 #include "liggghts_plugins/contact_model_cgm.hpp"
@@ -161,6 +162,11 @@ struct NoReport {
   void operator()(const PairContact&) const {}
 };
 
+std::map<const LAMMPS_NS::LAMMPS*, PairGranCgm*>& pair_styles() {
+  static std::map<const LAMMPS_NS::LAMMPS*, PairGranCgm*> styles;
+  return styles;
+}
+
 }  // namespace
 
 PairGranCgm::PairGranCgm(LAMMPS_NS::LAMMPS* liggghts, PairGran* parent, int64_t variant)
@@ -172,10 +178,21 @@ PairGranCgm::PairGranCgm(LAMMPS_NS::LAMMPS* liggghts, PairGran* parent, int64_t 
     parent->add_history_value("shearz", "1");
   }
   set_pair_settings(*lmp, &settings_);
+  pair_styles()[lmp] = this;
 }
 
 PairGranCgm::~PairGranCgm() {
   if (pair_settings(*lmp) == &settings_) set_pair_settings(*lmp, nullptr);
+  if (pair_gran_cgm(*lmp) == this) pair_styles().erase(lmp);
+}
+
+int touching_flags() {
+  return contact_bits;
+}
+
+PairGranCgm* pair_gran_cgm(const LAMMPS_NS::LAMMPS& lmp) {
+  const auto found = pair_styles().find(&lmp);
+  return found == pair_styles().end() ? nullptr : found->second;
 }
 
 void PairGranCgm::settings(int argument_count, char** arguments, LIGGGHTS::IContactHistorySetup*) {

@@ -29,6 +29,13 @@ class PairGranCgm : public LIGGGHTS::PairStyles::IGranularPairStyle, protected L
   int64_t hashcode() override { return variant_; }
   bool contact_match(const std::string kind, const std::string model) override;
 
+  // For the fused engine, which computes the contacts itself between reneighbourings.
+  const LAMMPS_NS::PairGran* parent() const { return parent_; }
+  TangentialModel tangential() const { return settings_.tangential; }
+  const GrainContactTable& contacts() const { return contacts_; }
+  // Place of the tangential spring among the history values of a pair; -1: none.
+  int history_offset() const { return history_offset_; }
+
  private:
   template <TangentialModel tangential, class Report>
   void loop(LAMMPS_NS::PairGran& pair, Report report);
@@ -41,5 +48,11 @@ class PairGranCgm : public LIGGGHTS::PairStyles::IGranularPairStyle, protected L
   int history_offset_ = -1;
   GrainContactTable contacts_;
 };
+
+// Flags that LIGGGHTS's contact history holds for a touching pair of `model cgm`.
+int touching_flags();
+
+// The pair style of this LIGGGHTS instance if it is `gran model cgm`, or nullptr.
+PairGranCgm* pair_gran_cgm(const LAMMPS_NS::LAMMPS& lmp);
 
 }  // namespace gasgrain::plugins

@@ -1,0 +1,141 @@
+#include "liggghts_plugins/engine/contact_list.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "coupling/shared/error.hpp"
+
+namespace gasgrain::plugins {
+
+namespace {
+
+constexpr int no_candidate = -1;  // of padding
+
+int blocks_of(int grains) {
+  return (grains + grains_per_block - 1) / grains_per_block;
+}
+
+}  // namespace
+
+void ContactList::start(int local_count, int dummy) {
+  local_count_ = local_count;
+  dummy_ = dummy;
+  widest_pair_ = 0;
+  row_begin_.assign(1, 0);
+  row_begin_.reserve(local_count + 1);
+  candidate_first_.clear();
+  candidate_second_.clear();
+  near_begin_.assign(blocks_of(local_count) + 1, 0);
+  near_first_.clear();
+  near_second_.clear();
+  near_candidate_.clear();
+  touched_.clear();
+  set_touching({});
+}
+
+void ContactList::end_row() {
+  const int grain = static_cast<int>(row_begin_.size()) - 1;
+  for (std::size_t p = row_begin_.back(); p < candidate_second_.size(); ++p) {
+    candidate_first_.push_back(grain);
+    const int second = candidate_second_[p];
+    if (second < local_count_) widest_pair_ = std::max(widest_pair_, second - grain);
+  }
+  row_begin_.push_back(static_cast<int>(candidate_second_.size()));
+}
+
+void ContactList::find_near_pairs(const GrainRecord* grains, double margin) {
+  const ContactKernel& kernel = contact_kernel();
+  candidate_first_.resize(row_begin_.back() + group_size, dummy_);
+  candidate_second_.resize(row_begin_.back() + group_size, dummy_ + 1);
+  near_first_.clear();
+  near_second_.clear();
+  near_candidate_.clear();
+  for (int block = 0; block < block_count(); ++block) {
+    near_begin_[block] = static_cast<int>(near_first_.size());
+    const int begin = row_begin_[block * grains_per_block];
+    const int end = row_begin_[std::min(local_count_, (block + 1) * grains_per_block)];
+    places_.resize(end - begin + 2 * group_size);
+    const int count = kernel.near_pairs(
+        grains, {candidate_first_.data(), candidate_second_.data(), begin, end}, margin,
+        places_.data());
+    for (int n = 0; n < count; ++n) {
+      near_first_.push_back(candidate_first_[places_[n]]);
+      near_second_.push_back(candidate_second_[places_[n]]);
+      near_candidate_.push_back(places_[n]);
+    }
+    pad_to_group();
+  }
+  near_begin_.back() = static_cast<int>(near_first_.size());
+  // one group of padding behind all blocks serves the contacts of incomplete groups
+  near_first_.resize(near_first_.size() + group_size, dummy_);
+  near_second_.resize(near_second_.size() + group_size, dummy_ + 1);
+  near_candidate_.resize(near_candidate_.size() + group_size, no_candidate);
+}
+
+void ContactList::pad_to_group() {
+  while (near_first_.size() % group_size != 0) {
+    near_first_.push_back(dummy_);
+    near_second_.push_back(dummy_ + 1);
+    near_candidate_.push_back(no_candidate);
+  }
+}
+
+void ContactList::keep_touching() {
+  if (touching_is_current_) return;
+  touching_.clear();
+  for (std::size_t group = 0; group < touched_.size(); ++group) {
+    for (unsigned set = touched_[group]; set; set &= set - 1u) {
+      const std::size_t p = group * group_size + __builtin_ctz(set);
+      touching_.push_back({near_candidate_[p], springs_[p]});
+    }
+  }
+  touching_is_current_ = true;
+}
+
+// A touching pair that is not near any more has parted since.
+void ContactList::restore_touching() {
+  springs_.assign(near_first_.size(), SpringRecord{});
+  touched_.assign(near_first_.size() / group_size, 0);
+  std::size_t p = 0;
+  for (const TouchingPair& pair : touching_) {
+    while (p < near_candidate_.size() && near_candidate_[p] < pair.candidate) ++p;
+    if (p == near_candidate_.size()) break;
+    if (near_candidate_[p] != pair.candidate) continue;
+    springs_[p] = pair.spring;
+    touched_[p / group_size] |= static_cast<unsigned char>(1u << (p % group_size));
+  }
+}
+
+const std::vector<TouchingPair>& ContactList::touching() {
+  keep_touching();
+  return touching_;
+}
+
+void ContactList::set_touching(std::vector<TouchingPair> pairs) {
+  GASGRAIN_ASSERT(std::is_sorted(
+      pairs.begin(), pairs.end(),
+      [](const TouchingPair& a, const TouchingPair& b) { return a.candidate < b.candidate; }));
+  touching_ = std::move(pairs);
+  touching_is_current_ = true;
+}
+
+void ContactList::add_contact_loads(int block, ContactBatch batch, TangentialModel model,
+                                    bool uniform) {
+  touching_is_current_ = false;
+  const ContactKernel& kernel = contact_kernel();
+  const PairRange pairs{near_first_.data(), near_second_.data(), near_begin_[block],
+                        near_begin_[block + 1]};
+  places_.resize(pairs.end - pairs.begin + 2 * group_size);
+  batch.count = kernel.touching_pairs(batch.grains, pairs, touched_.data(), springs_.data(),
+                                      places_.data());
+  if (batch.count == 0) return;
+  batch.first = near_first_.data();
+  batch.second = near_second_.data();
+  batch.springs = springs_.data();
+  batch.coefficients = coefficients_.data();
+  batch.contacts = places_.data();
+  batch.dummy = near_begin_.back();
+  kernel.contact_loads(batch, model, uniform);
+}
+
+}  // namespace gasgrain::plugins

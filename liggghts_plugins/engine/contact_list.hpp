@@ -1,0 +1,80 @@
+// The neighbour lists of the fused engine and the memory of its contacts.
+//
+// Candidates: LIGGGHTS's list, valid until the next reneighbouring. Near pairs: those of them whose
+// surfaces are nearer than a small margin, chosen anew whenever grains may have moved by half of
+// it; only these are tested in a step. Every near pair has a tangential spring, which is zero
+// unless the pair touched in the last step.
+#pragma once
+
+#include <vector>
+
+#include "liggghts_plugins/engine/kernel.hpp"
+
+namespace gasgrain::plugins {
+
+// A touching pair: its place in the list of candidates and its spring.
+struct TouchingPair {
+  int candidate;
+  SpringRecord spring;
+};
+
+class ContactList {
+ public:
+  // Starts an empty list of candidates for grains 0 .. local_count - 1. Then, for every grain in
+  // order: end_row() after add_candidate() for each of its partners, which have larger indices.
+  // `dummy` and dummy + 1 are indices of two grains that never touch.
+  void start(int local_count, int dummy);
+  void add_candidate(int second) { candidate_second_.push_back(second); }
+  void end_row();
+
+  int row_begin(int grain) const { return row_begin_[grain]; }
+  int row_end(int grain) const { return row_begin_[grain + 1]; }
+  // Largest index difference of two local grains of a pair.
+  int widest_pair() const { return widest_pair_; }
+
+  // Chooses the near pairs. Springs of touching pairs are kept. `coefficients(i, j)` is asked for
+  // every near pair unless `uniform`.
+  template <class Coefficients>
+  void choose_near_pairs(const GrainRecord* grains, double margin, bool uniform,
+                         Coefficients coefficients) {
+    keep_touching();
+    find_near_pairs(grains, margin);
+    coefficients_.resize(uniform ? 1 : near_first_.size());
+    for (std::size_t p = 0; p < coefficients_.size(); ++p)
+      coefficients_[p] = coefficients(near_first_[p], near_second_[p]);
+    restore_touching();
+  }
+
+  // Touching pairs in the order of candidates.
+  const std::vector<TouchingPair>& touching();
+  // Replaces the touching pairs, to be followed by choose_near_pairs(). Ascending candidates.
+  void set_touching(std::vector<TouchingPair> pairs);
+
+  int block_count() const { return static_cast<int>(near_begin_.size()) - 1; }
+  // Finds the contacts of a block's grains and adds their loads.
+  void add_contact_loads(int block, ContactBatch batch, TangentialModel model, bool uniform);
+
+ private:
+  void keep_touching();
+  void find_near_pairs(const GrainRecord* grains, double margin);
+  void pad_to_group();
+  void restore_touching();
+
+  int local_count_ = 0;
+  int dummy_ = 0;
+  int widest_pair_ = 0;
+  std::vector<int> row_begin_;  // per grain, and the end
+  std::vector<int> candidate_first_, candidate_second_;
+
+  std::vector<int> near_begin_;  // per block, and the end
+  std::vector<int> near_first_, near_second_, near_candidate_;
+  std::vector<SpringRecord> springs_;
+  std::vector<unsigned char> touched_;  // a bit per near pair
+  std::vector<PairCoefficients> coefficients_;
+
+  bool touching_is_current_ = false;
+  std::vector<TouchingPair> touching_;
+  std::vector<int> places_;
+};
+
+}  // namespace gasgrain::plugins

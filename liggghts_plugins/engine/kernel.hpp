@@ -1,0 +1,73 @@
+// The vector code of the fused engine: three loops over plain records.
+//
+// Compiled once per instruction set (kernel.cpp), chosen at run time by contact_kernel(); results
+// agree within round-off, and are the same bits in every run on the same machine.
+#pragma once
+
+#include "liggghts_plugins/contact_settings.hpp"
+#include "liggghts_plugins/engine/records.hpp"
+
+namespace gasgrain::plugins {
+
+struct PairRange {
+  const int* first;   // index of the grain with the smaller index
+  const int* second;  // may be read up to one group beyond the end, as `first`
+  int begin, end;
+};
+
+// Where loads are collected. Slots of a ring are free again when their grain has been integrated:
+// accumulators of a large bed stay in cache. The load on a ghost is not wanted: its own rank
+// computes it.
+struct LoadRing {
+  LoadRecord* slots;
+  int mask;         // size of the ring (a power of two) - 1; the slot of a grain is index & mask
+  int discarded;    // slot for what nobody wants
+  int local_count;  // grains from this index on are ghosts
+};
+
+struct ContactBatch {
+  const GrainRecord* grains;
+  const SpinRecord* spins;
+  const int* first;   // of all pairs of the list
+  const int* second;  // of all pairs of the list
+  SpringRecord* springs;
+  const PairCoefficients* coefficients;  // one per pair of the list, or a single one
+  LoadRing ring;
+  int* contacts;  // places in the list; may be written up to one group beyond the end
+  int count;
+  int dummy;           // place in the list of a pair without effect, used as padding
+  double slip_time;    // s
+  double* largest;     // overlap (m) and overlap / sum of radii so far
+};
+
+struct IntegrationBatch {
+  GrainRecord* grains;
+  SpinRecord* spins;
+  LoadRing ring;
+  const double* held_forces;  // N, three per grain, or nullptr
+  int begin, end;
+  double gravity[3];     // m/s^2
+  double kick;           // s, for velocities
+  double drift;          // s, for positions
+  double square_speed;   // largest so far, m^2/s^2; updated
+};
+
+struct ContactKernel {
+  const char* name;
+  // Writes the places of pairs whose surfaces are nearer than `margin` (m); returns their number.
+  // `places` has room for the range and one group more.
+  int (*near_pairs)(const GrainRecord*, const PairRange&, double margin, int* places);
+  // The same for touching pairs of whole groups, with memory: `touched` holds a bit per pair, and
+  // springs of pairs that have parted are set to zero.
+  int (*touching_pairs)(const GrainRecord*, const PairRange&, unsigned char* touched,
+                        SpringRecord* springs, int* places);
+  // Adds the loads of the contacts to the ring and advances their springs. `uniform`: all pairs
+  // have the same coefficients.
+  void (*contact_loads)(ContactBatch&, TangentialModel, bool uniform);
+  // v += a kick, x += v drift for the block, and sets its loads to zero.
+  void (*integrate)(IntegrationBatch&);
+};
+
+const ContactKernel& contact_kernel();
+
+}  // namespace gasgrain::plugins

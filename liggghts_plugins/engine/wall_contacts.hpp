@@ -1,0 +1,55 @@
+// Contacts of the engine's grains with one SDF wall: the force of fix wall/sdf, on our records.
+//
+// The distance of a candidate is not asked for again until the grain may have come near: a grain
+// at distance phi with radius r cannot touch before it has travelled phi - r, divided by the
+// largest gradient that trilinear interpolation of a distance can have (sqrt 3).
+#pragma once
+
+#include <vector>
+
+#include "coupling/shared/signed_distance.hpp"
+#include "liggghts_plugins/contact_properties.hpp"
+#include "liggghts_plugins/engine/kernel.hpp"
+#include "liggghts_plugins/fix_wall_sdf.h"
+
+namespace gasgrain::plugins {
+
+// The records and what the contact law needs besides, by grain index.
+struct WallBatch {
+  const GrainRecord* grains;
+  const SpinRecord* spins;
+  const int* types;
+  LoadRing ring;
+  TangentialStep step;
+  double travelled;  // m, at least what any grain has moved since the walls were loaded
+};
+
+class WallContacts {
+ public:
+  explicit WallContacts(FixWallSdf& wall) : wall_(&wall) {}
+
+  // Takes candidates and springs from the fix.
+  void load(int local_count);
+  // Gives the springs back.
+  void store() const;
+
+  void begin_step() { load_ = {}; }
+  void add_contact_loads(int block, const WallBatch& batch);
+  // Tells the fix the load of the step.
+  void end_step() const { wall_->record_step(load_); }
+
+ private:
+  template <TangentialModel tangential>
+  void add_block(int block, const WallBatch& batch);
+  template <TangentialModel tangential>
+  void add_contact(const DistanceSample& wall, int candidate, const WallBatch& batch);
+
+  FixWallSdf* wall_;
+  std::vector<int> grains_;           // ascending
+  std::vector<int> block_begin_;      // per block, and the end
+  std::vector<double> touches_after_;  // m, `travelled` before which there is no contact
+  std::vector<Vec3> displacements_;   // m
+  FixWallSdf::Load load_;
+};
+
+}  // namespace gasgrain::plugins
