@@ -27,35 +27,53 @@ Slab slab(const Index3& size, int direction, int from, int to) {
   return s;
 }
 
+// visit(row, length) for every row of the slab along x: `row` is the storage index of its first
+// value.
 template <class Visit>
-void for_each_index(const Slab& s, Visit&& visit) {
+void for_each_row(const Field& field, const Slab& s, Visit&& visit) {
   for (int k = s.begin[2]; k < s.end[2]; ++k) {
     for (int j = s.begin[1]; j < s.end[1]; ++j) {
-      for (int i = s.begin[0]; i < s.end[0]; ++i) visit(i, j, k);
+      visit(field.index(s.begin[0], j, k), s.end[0] - s.begin[0]);
     }
   }
 }
 
+std::size_t count(const Slab& s) {
+  return static_cast<std::size_t>(s.end[0] - s.begin[0]) * (s.end[1] - s.begin[1]) *
+         (s.end[2] - s.begin[2]);
+}
+
 std::vector<double> pack(std::span<Field* const> fields, const Slab& s) {
-  std::vector<double> values;
-  values.reserve(fields.size() * static_cast<std::size_t>(s.end[0] - s.begin[0]) *
-                 (s.end[1] - s.begin[1]) * (s.end[2] - s.begin[2]));
+  std::vector<double> values(fields.size() * count(s));
+  double* next = values.data();
   for (Field* field : fields) {
-    for_each_index(s, [&](int i, int j, int k) { values.push_back((*field)(i, j, k)); });
+    for_each_row(*field, s, [&](std::ptrdiff_t row, int length) {
+      next = std::copy_n(field->data() + row, length, next);
+    });
   }
   return values;
 }
 
 void unpack(std::span<Field* const> fields, const Slab& s, const std::vector<double>& values) {
-  auto next = values.begin();
+  const double* next = values.data();
   for (Field* field : fields) {
-    for_each_index(s, [&](int i, int j, int k) { (*field)(i, j, k) = *next++; });
+    for_each_row(*field, s, [&](std::ptrdiff_t row, int length) {
+      std::copy_n(next, length, field->data() + row);
+      next += length;
+    });
   }
 }
 
 void unpack_add(Field& field, const Slab& s, const std::vector<double>& values) {
-  auto next = values.begin();
-  for_each_index(s, [&](int i, int j, int k) { field(i, j, k) += *next++; });
+  const double* next = values.data();
+  for_each_row(field, s, [&](std::ptrdiff_t row, int length) {
+    for (int i = 0; i < length; ++i) field[row + i] += next[i];
+    next += length;
+  });
+}
+
+bool has_neighbours(const Decomposition& decomposition, int direction) {
+  return !decomposition.at_boundary(direction, 0) || !decomposition.at_boundary(direction, 1);
 }
 
 // Sends to the neighbour on `to_side`, receives the message of the same kind from the other side.
@@ -96,6 +114,7 @@ int layers_at_once(const Decomposition& decomposition, int direction, int layers
 
 void fill(const Decomposition& decomposition, std::span<Field* const> fields) {
   for (int d = 0; d < 3; ++d) {
+    if (!has_neighbours(decomposition, d)) continue;
     for (int side = 0; side < 2; ++side) {
       const int layers = side == 0 ? halo + 1 : halo;
       const int stride = layers_at_once(decomposition, d, layers);
@@ -118,7 +137,9 @@ void add_layers(const Decomposition& decomposition, Field& field, int direction,
   Field* const one[] = {&field};
   const std::vector<double> received = shift(decomposition, direction, 1 - side, pack(one, ghosts));
   if (!decomposition.at_boundary(direction, 1 - side)) {
-    for_each_index(ghosts, [&](int i, int j, int k) { field(i, j, k) = 0.0; });
+    for_each_row(field, ghosts, [&](std::ptrdiff_t row, int length) {
+      std::fill_n(field.data() + row, length, 0.0);
+    });
   }
   if (!received.empty()) unpack_add(field, owner, received);
 }
@@ -137,6 +158,7 @@ void fill_ghosts(const Decomposition& decomposition, VectorField& field) {
 
 void add_ghosts_to_owners(const Decomposition& decomposition, Field& field) {
   for (int d = 2; d >= 0; --d) {
+    if (!has_neighbours(decomposition, d)) continue;
     for (int side = 1; side >= 0; --side) {
       const int stride = layers_at_once(decomposition, d, halo);
       for (int layer = halo - stride; layer >= 0; layer -= stride) {
