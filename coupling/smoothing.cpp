@@ -57,9 +57,10 @@ SmoothingPlan plan_smoothing(const cfd::Grid& grid, double width) {
 }
 
 Smoothing::Smoothing(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls)
-    : decomposition_(decomposition),
+    : layers_(decomposition),
       open_fraction_(connected_open_fraction(decomposition, walls)),
-      inverse_open_fraction_(decomposition.block().size) {
+      inverse_open_fraction_(decomposition.block().size),
+      scratch_(decomposition.block().size) {
   const cfd::Index3 size = decomposition.block().size;
   cfd::for_each_cell(size, [&](int i, int j, int k) {
     const double open = open_fraction_(i, j, k);
@@ -90,13 +91,13 @@ void Smoothing::set_plan(const SmoothingPlan& plan) {
   }
 }
 
-void Smoothing::sweep(cfd::Field& field, cfd::Field& scratch) const {
+void Smoothing::sweep(cfd::Field& field) {
   const cfd::Index3 size = field.size();
   const std::ptrdiff_t sx = field.stride(0), sy = field.stride(1), sz = field.stride(2);
-  const double *cx = conductance_[0].data(), *cy = conductance_[1].data(),
-               *cz = conductance_[2].data(), *inverse = inverse_open_fraction_.data();
-  const double* f = field.data();
-  double* out = scratch.data();
+  const double *__restrict cx = conductance_[0].data(), *__restrict cy = conductance_[1].data(),
+               *__restrict cz = conductance_[2].data(),
+               *__restrict inverse = inverse_open_fraction_.data(), *__restrict f = field.data();
+  double* __restrict out = scratch_.data();
   for (int k = 0; k < size[2]; ++k) {
     for (int j = 0; j < size[1]; ++j) {
       const std::ptrdiff_t row = field.index(0, j, k);
@@ -108,16 +109,13 @@ void Smoothing::sweep(cfd::Field& field, cfd::Field& scratch) const {
       }
     }
   }
-  std::swap(field, scratch);
+  std::swap(field, scratch_);
 }
 
-void Smoothing::apply(std::span<cfd::Field* const> fields) const {
-  cfd::Field scratch(decomposition_.block().size);
+void Smoothing::apply(std::span<cfd::Field* const> fields) {
   for (int s = 0; s < plan_.sweeps; ++s) {
-    for (cfd::Field* field : fields) {
-      cfd::fill_ghosts(decomposition_, *field);
-      sweep(*field, scratch);
-    }
+    layers_.fill(fields);
+    for (cfd::Field* field : fields) sweep(*field);
   }
 }
 

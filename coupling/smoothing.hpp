@@ -6,6 +6,7 @@
 #include "cfd/field.hpp"
 #include "cfd/grid.hpp"
 #include "cfd/wall_geometry.hpp"
+#include "coupling/layer_exchange.hpp"
 
 namespace gasgrain::coupling {
 
@@ -32,17 +33,18 @@ class Smoothing {
 
   // All sweeps, in place, on intensive fields (amount per open volume). Collective; ghosts are
   // overwritten and stale afterwards.
-  void apply(std::span<cfd::Field* const> fields) const;
+  void apply(std::span<cfd::Field* const> fields);
 
  private:
-  void sweep(cfd::Field& field, cfd::Field& scratch) const;
+  void sweep(cfd::Field& field);
 
-  const cfd::Decomposition& decomposition_;
+  LayerExchange layers_;
   SmoothingPlan plan_;
   cfd::Field open_fraction_;
   cfd::Field inverse_open_fraction_;  // 0 in closed cells
   cfd::VectorField passage_;          // min(1 - alpha) of the two cells of an open face, else 0
   cfd::VectorField conductance_;      // lambda * passage
+  cfd::Field scratch_;
 };
 
 }  // namespace gasgrain::coupling

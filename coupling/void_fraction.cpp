@@ -72,7 +72,7 @@ void Deposition::locate(std::span<const Vec3> positions) {
 
 template <int components>
 void Deposition::deposit(const std::array<cfd::Field*, components>& cells,
-                         std::span<const std::array<double, components>> amounts) const {
+                         std::span<const std::array<double, components>> amounts) {
   GASGRAIN_ASSERT(amounts.size() == stencils_.size());
   const cfd::Field& open = open_fraction();
   Interleaved<components> density(open.count());
@@ -105,7 +105,7 @@ void Deposition::deposit(const std::array<cfd::Field*, components>& cells,
 
 template <int components>
 void Deposition::gather(std::span<std::array<double, components>> values,
-                        const std::array<cfd::Field*, components>& cells) const {
+                        const std::array<cfd::Field*, components>& cells) {
   GASGRAIN_ASSERT(values.size() == stencils_.size());
   smoothing_.apply(cells);
   const cfd::Field& open = open_fraction();
@@ -134,12 +134,11 @@ void Deposition::gather(std::span<std::array<double, components>> values,
   }
 }
 
-#define GASGRAIN_INSTANTIATE(components)                                                         \
-  template void Deposition::deposit<components>(const std::array<cfd::Field*, components>&,      \
-                                                std::span<const std::array<double, components>>) \
-      const;                                                                                     \
-  template void Deposition::gather<components>(std::span<std::array<double, components>>,        \
-                                               const std::array<cfd::Field*, components>&) const;
+#define GASGRAIN_INSTANTIATE(components)                                                          \
+  template void Deposition::deposit<components>(const std::array<cfd::Field*, components>&,       \
+                                                std::span<const std::array<double, components>>); \
+  template void Deposition::gather<components>(std::span<std::array<double, components>>,         \
+                                               const std::array<cfd::Field*, components>&);
 GASGRAIN_INSTANTIATE(1)
 GASGRAIN_INSTANTIATE(4)
 GASGRAIN_INSTANTIATE(6)

@@ -36,13 +36,13 @@ class Deposition {
   // grain by grain, all components of a grain adjacent. Collective; ghosts are not filled.
   template <int components>
   void deposit(const std::array<cfd::Field*, components>& cells,
-               std::span<const std::array<double, components>> amounts) const;
+               std::span<const std::array<double, components>> amounts);
 
   // Transpose of D times the open volume of cells: the kernel's mean of cells[c] around each grain.
   // Collective; overwrites `cells` by their smoothed values.
   template <int components>
   void gather(std::span<std::array<double, components>> values,
-              const std::array<cfd::Field*, components>& cells) const;
+              const std::array<cfd::Field*, components>& cells);
 
  private:
   struct Stencil {
