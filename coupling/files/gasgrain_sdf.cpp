@@ -127,19 +127,23 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag("--allow-cut", options.allow_cut, "The body may go on beyond the box");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   Options options;
   CLI::App app{"Samples the signed distance of a body; docs/geometry.md describes bodies and files",
                "gasgrain-sdf"};
   declare(app, options);
   CLI11_PARSE(app, argc, argv);
+  if (!options.inspect.empty()) return inspect(options);
+  if (!options.case_file.empty()) return write_field(options);
+  std::fputs(app.help().c_str(), stdout);
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    if (!options.inspect.empty()) return inspect(options);
-    if (!options.case_file.empty()) return write_field(options);
-    std::fputs(app.help().c_str(), stdout);
-    return 1;
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "gasgrain-sdf: error: %s\n", error.what());
     return 1;

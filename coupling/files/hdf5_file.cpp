@@ -141,7 +141,7 @@ struct Selection {
 
 }  // namespace
 
-ArrayBlock ArrayBlock::whole(std::vector<std::uint64_t> size) {
+ArrayBlock ArrayBlock::whole(const std::vector<std::uint64_t>& size) {
   return {.global = size, .start = std::vector<std::uint64_t>(size.size(), 0), .count = size};
 }
 

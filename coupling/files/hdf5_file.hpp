@@ -19,7 +19,7 @@ struct ArrayBlock {
   std::vector<std::uint64_t> count;   // its size, may be zero
 
   // All of a dataset of that size.
-  static ArrayBlock whole(std::vector<std::uint64_t> size);
+  static ArrayBlock whole(const std::vector<std::uint64_t>& size);
 };
 
 class Hdf5File {

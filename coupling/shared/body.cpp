@@ -135,8 +135,9 @@ std::string shape_key(const ConfigTable& table) {
                           "difference", "complement", "file"}) {
     if (!table.has(key)) continue;
     if (!found.empty()) {
-      table.fail(key, "is a second shape beside '" + found + "'; give one, or combine them: " +
-                          "union = [{" + found + " = ...}, {" + key + " = ...}]");
+      table.fail(key, "is a second shape beside '" + found +
+                          "'; give one, or combine them: union = [{" + found + " = ...}, {" + key +
+                          " = ...}]");
     }
     found = key;
   }

@@ -132,6 +132,7 @@ DragClosure find_drag_closure(const std::string& name) {
 
 std::vector<std::string> drag_closure_names() {
   std::vector<std::string> names;
+  names.reserve(closures.size());
   for (const NamedClosure& entry : closures) names.emplace_back(entry.name);
   return names;
 }
