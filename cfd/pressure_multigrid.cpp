@@ -7,9 +7,12 @@
 // the iteration goes on from there when it misses the tolerance.
 //
 // Assumes a right-hand side without mean in every region that has no outlet; leaves the constant of
-// such a region at what the first guess had.
+// such a region at what the first guess had. Rounding gives the residual a mean there, for which no
+// solution exists and which the coarsest level would magnify: it is removed in every iteration.
 #include <cmath>
+#include <vector>
 
+#include "cfd/gas_regions.hpp"
 #include "cfd/halo_exchange.hpp"
 #include "cfd/multigrid.hpp"
 #include "cfd/pressure_solver.hpp"
@@ -46,6 +49,8 @@ class MultigridSolver final : public PressureSolver {
   double apply(const PressureSystem& system, Field& field, Field& image) const;
   // residual = b - A p; returns its squared norm.
   double compute_residual(const PressureSystem& system, Field& pressure);
+  // Removes the mean of the residual from regions without outlet.
+  void remove_means(const PressureSystem& system);
   int iterate(const PressureSystem& system, double target, int max_iterations, double squared,
               Field& pressure);
   void clear_isolated_cells(const PressureSystem& system, Field& pressure) const;
@@ -98,8 +103,23 @@ double MultigridSolver::compute_residual(const PressureSystem& system, Field& pr
   });
 }
 
+void MultigridSolver::remove_means(const PressureSystem& system) {
+  std::vector<double> mean = sum_per_region(decomposition_, *system.regions, residual_);
+  for (std::size_t r = 0; r < mean.size(); ++r) {
+    const GasRegion& region = system.regions->regions[r];
+    mean[r] = region.has_outlet ? 0.0 : mean[r] / region.cells;
+  }
+  auto region = system.regions->region_of_cell.begin();
+  for_cells([&](std::ptrdiff_t n) {
+    if (*region != GasRegions::none) residual_[n] -= mean[*region];
+    ++region;
+  });
+}
+
 int MultigridSolver::iterate(const PressureSystem& system, double target, int max_iterations,
                              double squared, Field& pressure) {
+  const bool singular = system.regions && system.regions->any_singular();
+  if (singular) remove_means(system);
   double old_product = 0;
   int iterations = 0;
   while (squared > target * target && iterations < max_iterations) {
@@ -123,6 +143,7 @@ int MultigridSolver::iterate(const PressureSystem& system, double target, int ma
       residual_[n] -= alpha * image_[n];
       return residual_[n] * residual_[n];
     });
+    if (singular) remove_means(system);
     ++iterations;
   }
   return iterations;
@@ -152,8 +173,15 @@ PressureReport MultigridSolver::solve(const PressureSystem& system, double toler
   double squared = compute_residual(system, pressure);
   for (int attempt = 0; attempt < restarts && squared > target * target; ++attempt) {
     const int left = max_iterations - report.iterations;
+    const double before = squared;
+    const Field best = pressure;
     report.iterations += iterate(system, target, left, squared, pressure);
     squared = compute_residual(system, pressure);
+    if (!(squared < before)) {  // round-off is all that is left
+      pressure = best;
+      squared = before;
+      break;
+    }
   }
   report.residual = std::sqrt(squared) / norm;
   fill_ghosts(decomposition_, pressure);

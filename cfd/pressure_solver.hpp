@@ -8,6 +8,8 @@
 
 namespace gasgrain::cfd {
 
+struct GasRegions;
+
 struct PressureReport {
   int iterations = 0;
   double residual = 0.0;  // true residual over right-hand side, 2-norm, recomputed after the solve
@@ -21,6 +23,7 @@ struct PressureSystem {
   VectorField transmissibility;
   Field diagonal;
   Field right_hand_side;
+  const GasRegions* regions = nullptr;  // of the transmissibilities, when the system is singular
 };
 
 class PressureSolver {

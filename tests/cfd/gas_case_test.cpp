@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include "cfd/gas_case.hpp"
+#include "coupling/shared/error.hpp"
+
+namespace gasgrain::cfd {
+namespace {
+
+const std::string complete = R"(
+[grid]
+lower = [0, 0, 0]
+upper = [1, 2, 3]
+cells = [4, 5, 6]
+[gas]
+density = 1.2
+viscosity = 1.8e-5
+gravity = [0, 0, -9.81]
+[boundary]
+x_lower = {type = "no-slip", wall_velocity = [0, 1, 0]}
+x_upper = {type = "slip"}
+y_lower = {type = "periodic"}
+y_upper = {type = "periodic"}
+z_lower = {type = "inlet", superficial_velocity = 0.2}
+z_upper = {type = "outlet", pressure = 5}
+[numerics]
+convection = "central"
+pressure_solver = "hypre"
+pressure_tolerance = 1e-8
+[fixed_bed]
+void_fraction = 0.4
+diameter = 1e-3
+[coupling]
+anything = 1
+)";
+
+GasCase read(const std::string& text) {
+  return read_gas_case(ConfigTable::parse(text, "c.toml"));
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    read(text);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = complete;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(GasCase, reads_every_section) {
+  const GasCase c = read(complete);
+  EXPECT_EQ(c.grid.cells, (Index3{4, 5, 6}));
+  EXPECT_EQ(c.gas.gravity, Vec3(0, 0, -9.81));
+  EXPECT_EQ(c.boundaries[0][0].wall_velocity, Vec3(0, 1, 0));
+  EXPECT_EQ(c.boundaries[1][0].type, BoundaryType::periodic);
+  EXPECT_EQ(c.boundaries[2][0].superficial_velocity, Vec3(0, 0, 0.2));
+  EXPECT_EQ(c.boundaries[2][1].pressure, 5.0);
+  EXPECT_EQ(c.numerics.convection, Convection::central);
+  EXPECT_EQ(c.numerics.pressure_solver, PressureMethod::hypre);
+  EXPECT_TRUE(c.fixed_bed.present);
+  EXPECT_EQ(c.fixed_bed.upper, c.grid.upper);
+}
+
+TEST(GasCase, an_inlet_number_points_inwards_at_the_upper_side_too) {
+  const GasCase c = read(with("z_upper = {type = \"outlet\", pressure = 5}",
+                              "z_upper = {type = \"inlet\", superficial_velocity = 0.3}"));
+  EXPECT_EQ(c.boundaries[2][1].superficial_velocity, Vec3(0, 0, -0.3));
+}
+
+TEST(GasCase, errors_name_file_line_and_key_and_suggest_the_nearest) {
+  EXPECT_NE(error_of(with("density", "densty"))
+                .find("c.toml:7: gas.densty: is not a known key; did "
+                      "you mean 'density'?"),
+            std::string::npos);
+  EXPECT_NE(error_of(with("[numerics]", "[numeric]")).find("did you mean 'numerics'"),
+            std::string::npos);
+  EXPECT_NE(error_of(with("\"slip\"", "\"slipp\"")).find("did you mean 'slip'"), std::string::npos);
+  EXPECT_NE(error_of(with("x_upper", "x_uper")).find("did you mean 'x_upper'"), std::string::npos);
+}
+
+TEST(GasCase, values_out_of_range_are_errors) {
+  EXPECT_NE(error_of(with("density = 1.2", "density = 0")), "");
+  EXPECT_NE(error_of(with("viscosity = 1.8e-5", "viscosity = -1")), "");
+  EXPECT_NE(error_of(with("cells = [4, 5, 6]", "cells = [4, 0, 6]")), "");
+  EXPECT_NE(error_of(with("upper = [1, 2, 3]", "upper = [1, -2, 3]")), "");
+  EXPECT_NE(error_of(with("void_fraction = 0.4", "void_fraction = 1.4")), "");
+  EXPECT_NE(error_of(with("pressure_tolerance = 1e-8", "pressure_tolerance = 0")), "");
+}
+
+TEST(GasCase, boundaries_that_cannot_be_are_errors) {
+  EXPECT_NE(error_of(with("y_lower = {type = \"periodic\"}", "y_lower = {type = \"slip\"}")), "");
+  EXPECT_NE(error_of(with("[0, 1, 0]", "[1, 0, 0]")), "");  // wall moves through itself
+  EXPECT_NE(error_of(with("velocity = 0.2", "velocity = [0, 0, -1]")), "");  // inlet blows out
+  EXPECT_NE(error_of(with("{type = \"slip\"}", "{type = \"slip\", pressure = 1}")), "");
+  EXPECT_NE(error_of(with("{type = \"slip\"}", "{type = \"inlet\"}")), "");  // no velocity
+}
+
+}  // namespace
+}  // namespace gasgrain::cfd
