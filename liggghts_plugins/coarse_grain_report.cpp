@@ -14,6 +14,7 @@
 #include <string>
 
 #include "coupling/shared/error.hpp"
+#include "liggghts_plugins/engine/engine_mode.hpp"
 
 namespace gasgrain::plugins {
 
@@ -113,6 +114,7 @@ void check_and_print_coarse_graining(LAMMPS& lmp) {
 
 void run_with_report(LAMMPS* lmp, int argument_count, char** arguments) {
   if (lmp->domain) check_and_print_coarse_graining(*lmp);
+  install_engine(*lmp);
   LAMMPS_NS::Run(lmp).command(argument_count, arguments);
 }
 

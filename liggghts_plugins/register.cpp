@@ -3,6 +3,7 @@
 #include "liggghts_plugins/coarse_grain_report.hpp"
 #include "liggghts_plugins/coarsegraining.h"
 #include "liggghts_plugins/contact_model_cgm.hpp"
+#include "liggghts_plugins/engine/engine_mode.hpp"
 #include "liggghts_plugins/fix_wall_sdf.h"
 
 namespace gasgrain::plugins {
@@ -11,6 +12,7 @@ void register_styles(LAMMPS_NS::LAMMPS& lmp) {
   register_contact_model_cgm();
   register_command(lmp, "coarsegraining", run_command<LAMMPS_NS::Coarsegraining>);
   register_command(lmp, "run", run_with_report);
+  register_command(lmp, "gasgrain_engine", set_engine_mode);
   register_fix(lmp, "wall/sdf", create_fix<FixWallSdf>);
   describe_plugin_styles();
 }
@@ -26,6 +28,9 @@ void describe_plugin_styles() {
                   "the same law against the walls of stock LIGGGHTS", "docs/script_commands.md"});
   describe_style({"fix ID group wall/sdf body FILE.h5 | case CASE.toml body NAME type T",
                   "wall from a signed distance field", "docs/script_commands.md"});
+  describe_style({"gasgrain_engine off|auto|fused",
+                  "whether grains are moved by the fused engine or by LIGGGHTS's own loop",
+                  "docs/engine.md"});
 }
 
 }  // namespace gasgrain::plugins

@@ -68,19 +68,19 @@ void WallContacts::add_contact(const DistanceSample& wall, int candidate, const 
   const double gradient = wall.gradient.norm();
   const Vec3 n = wall.gradient / gradient;
   const double lever = grain.radius - 0.5 * overlap;
-  const ContactMotion motion =
-      contact_motion(ConstColumn(grain.velocity) - wall_->body().surface_velocity,
-                     lever * ConstColumn(batch.spins[i].velocity), n);
+  const ContactState state{
+      .n = n,
+      .overlap = gradient * overlap,
+      .relative_velocity = ConstColumn(grain.velocity) - wall_->body().surface_velocity,
+      .lever_spin = lever * ConstColumn(batch.spins[i].velocity)};
   const ContactCoefficients c = wall_->contacts()(batch.types[i], wall_->wall_type())
                                     .first_against_fixed(1.0 / grain.inverse_mass);
-  const double f_n = normal_force(c, gradient * overlap, motion.normal_velocity);
-  const Vec3 f_t = tangential_force<tangential>(c, f_n, n, motion.tangential_velocity,
-                                                displacements_[candidate], batch.step);
-  const Vec3 f = f_n * n + f_t;
+  const ContactForce f =
+      contact_force<tangential>(c, state, displacements_[candidate], batch.step);
   LoadRecord& sum = batch.ring.slots[i & batch.ring.mask];
-  Column(sum.force) += f;
-  Column(sum.torque) += lever * f_t.cross(n);
-  load_.add(f, ConstColumn(grain.position) - lever * n,
+  Column(sum.force) += f.force;
+  Column(sum.torque) += lever * f.moment;
+  load_.add(f.force, ConstColumn(grain.position) - lever * n,
             {.length = overlap, .relative = overlap / (2.0 * grain.radius)});
 }
 

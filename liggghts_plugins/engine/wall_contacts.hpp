@@ -11,6 +11,7 @@
 #include "liggghts_plugins/contact_properties.hpp"
 #include "liggghts_plugins/engine/kernel.hpp"
 #include "liggghts_plugins/fix_wall_sdf.h"
+#include "liggghts_plugins/sphere_contact.hpp"
 
 namespace gasgrain::plugins {
 

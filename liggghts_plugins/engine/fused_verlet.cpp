@@ -1,0 +1,366 @@
+#include "liggghts_plugins/engine/fused_verlet.hpp"
+
+#include <atom.h>
+#include <comm.h>
+#include <compute.h>
+#include <domain.h>
+#include <fix.h>
+#include <force.h>
+#include <lammps.h>
+#include <modify.h>
+#include <mpi.h>
+#include <neigh_list.h>
+#include <neighbor.h>
+#include <output.h>
+#include <pair_gran.h>
+#include <signal_handling.h>
+#include <timer.h>
+#include <update.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "coupling/shared/error.hpp"
+#include "liggghts_plugins/contact_statistics.hpp"
+#include "liggghts_plugins/engine/engine_mode.hpp"
+#include "liggghts_plugins/fix_wall_sdf.h"
+#include "liggghts_plugins/pair_gran_cgm.hpp"
+#include "liggghts_plugins/private_member.hpp"
+
+namespace gasgrain::plugins {
+
+using LAMMPS_NS::bigint;
+using LAMMPS_NS::Neighbor;
+
+struct MustCheck {
+  using Member = int Neighbor::*;
+  friend Member private_member(MustCheck);
+};
+struct NextRestart {
+  using Member = bigint LAMMPS_NS::Output::*;
+  friend Member private_member(NextRestart);
+};
+template struct GrantAccess<MustCheck, &Neighbor::must_check>;
+template struct GrantAccess<NextRestart, &LAMMPS_NS::Output::next_restart>;
+
+namespace {
+
+namespace signals = LAMMPS_NS::SignalHandler;
+using Column = Eigen::Map<Vec3>;
+using ConstColumn = Eigen::Map<const Vec3>;
+
+bool any_matches(LAMMPS_NS::Compute* const* computes, int count, bigint step) {
+  return std::any_of(computes, computes + count,
+                     [&](LAMMPS_NS::Compute* compute) { return compute->matchstep(step) != 0; });
+}
+
+}  // namespace
+
+void FusedVerlet::setup() {
+  plan();
+  print_plan();
+  if (engine_mode(*lmp) == EngineMode::fused && !plan_.fused())
+    throw UserError("gasgrain_engine fused: " + plan_.text());
+  Verlet::setup();
+  lists_are_fresh_ = true;
+}
+
+void FusedVerlet::plan() {
+  if (engine_mode(*lmp) == EngineMode::off) {
+    plan_ = {};
+    plan_.obstacles = {"gasgrain_engine off"};
+  } else {
+    plan_ = plan_scene(*lmp);
+  }
+  planned_ = true;
+}
+
+void FusedVerlet::print_plan() const {
+  if (engine_mode(*lmp) == EngineMode::off || comm->me != 0) return;
+  const std::string line = plan_.text() + "\n";
+  if (screen) std::fputs(line.c_str(), screen);
+  if (logfile) std::fputs(line.c_str(), logfile);
+}
+
+void FusedVerlet::run(int steps) {
+  if (!planned_) plan();  // run ... pre no
+  planned_ = false;
+  if (!plan_.fused()) {
+    lists_are_fresh_ = false;
+    Verlet::run(steps);
+    return;
+  }
+  if (steps == 0) return;
+  last_step_ = update->ntimestep + steps;
+  quit_requested_ = stop_ = false;
+  closed_ = true;
+  load_grains();
+  reneighbour_next_ = !lists_are_fresh_;
+  lists_are_fresh_ = false;
+  while (update->ntimestep < last_step_ && !stop_) {
+    if (stock_step_due(update->ntimestep + 1))
+      stock_step();
+    else
+      fused_step();
+  }
+  store_histories();
+}
+
+bool FusedVerlet::stock_step_due(bigint step) const {
+  return any_matches(elist_global, nelist_global, step) ||
+         any_matches(elist_atom, nelist_atom, step) ||
+         any_matches(vlist_global, nvlist_global, step) ||
+         any_matches(vlist_atom, nvlist_atom, step);
+}
+
+void FusedVerlet::stock_step() {
+  store_histories();
+  const bigint builds = neighbor->ncalls;
+  Verlet::run(1);
+  load_grains();
+  if (neighbor->ncalls == builds) reneighbour_next_ = true;
+  stop_ = largest_of_ranks(signals::request_quit) > 0;
+}
+
+void FusedVerlet::fused_step() {
+  ++update->ntimestep;
+  timer->stamp();
+  if (closed_) open_step();
+  if (reneighbouring_due()) {
+    reneighbour();
+  } else {
+    ++neighbor->ago;
+    ghosts_.update_ghosts(loop_);
+    timer->stamp(TIME_COMM);
+  }
+  const bool closes = end_of_step_is_looked_at();
+  force_pass(closes);
+  timer->stamp(TIME_PAIR);
+  end_step();
+}
+
+// The first half of Verlet's step for grains whose last step has ended: as fix nve/sphere does it,
+// on the atom arrays, which may have been changed since.
+void FusedVerlet::open_step() {
+  load_state();
+  const double half = 0.5 * update->dt * force->ftm2v;
+  double fastest = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    GrainRecord& grain = loop_.grain(i);
+    SpinRecord& spin = loop_.spin(i);
+    Column velocity(grain.velocity);
+    velocity += half * grain.inverse_mass * ConstColumn(atom->f[i]);
+    Column(spin.velocity) += half * spin.inverse_inertia * ConstColumn(atom->torque[i]);
+    Column(grain.position) += update->dt * velocity;
+    fastest = std::max(fastest, velocity.squaredNorm());
+  }
+  closed_ = false;
+  note_drift(fastest);
+}
+
+// All grains have moved by at most the largest speed times dt, on whatever rank. Signals reach the
+// ranks at different times; what they ask for is done by all ranks in the same step.
+void FusedVerlet::note_drift(double square_speed) {
+  double largest[3] = {square_speed, signals::request_quit ? 1.0 : 0.0,
+                       signals::request_write_restart ? 1.0 : 0.0};
+  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, largest, 3, MPI_DOUBLE, MPI_MAX, world);
+  const double distance = std::sqrt(largest[0]) * update->dt;
+  loop_.note_travel(distance);
+  moved_ += distance;
+  quit_requested_ = largest[1] > 0.0;
+  write_restart_requested_ = largest[2] > 0.0;
+}
+
+bool FusedVerlet::restart_file_due() {
+  if (!quit_requested_ && !write_restart_requested_)
+    return output->*private_member(NextRestart()) == update->ntimestep;
+  signals::request_quit = quit_requested_;
+  signals::request_write_restart = write_restart_requested_;
+  return output->restart_requested(update->ntimestep);
+}
+
+double FusedVerlet::largest_of_ranks(double value) const {
+  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, world);
+  return value;
+}
+
+double FusedVerlet::displacement_since_build() const {
+  double largest = 0.0;
+  for (int i = 0; i < static_cast<int>(built_at_.size()); ++i) {
+    const ConstColumn position(const_cast<GrainLoop&>(loop_).grain(i).position);
+    largest = std::max(largest, (position - built_at_[i]).squaredNorm());
+  }
+  return largest_of_ranks(std::sqrt(largest));
+}
+
+// As Neighbor::decide(), but by a bound on the displacement, which is made exact when it is used
+// up; the lists hold pairs nearer than the skin, so that each grain may move by half of it.
+bool FusedVerlet::reneighbouring_due() {
+  if (neighbor->*private_member(MustCheck())) {
+    if (restart_file_due()) return true;
+    for (const LAMMPS_NS::Fix* fix : plan_.reneighbouring)
+      if (fix->next_reneighbor == update->ntimestep) return true;
+  }
+  if (reneighbour_next_) return true;
+  const double allowed = 0.5 * neighbor->skin;
+  if (moved_ <= allowed) return false;
+  moved_ = displacement_since_build();
+  constexpr double nearly_all = 0.95;  // the exact value is not worth asking for again
+  return moved_ > nearly_all * allowed;
+}
+
+// The middle of Verlet::run().
+void FusedVerlet::reneighbour() {
+  store_state();
+  store_histories();
+  if (modify->n_pre_exchange) modify->pre_exchange();
+  domain->pbc();
+  timer->stamp();
+  comm->exchange();
+  if (atom->sortfreq > 0 && update->ntimestep >= atom->nextsort) atom->sort();
+  comm->borders();
+  timer->stamp(TIME_COMM);
+  if (modify->n_pre_neighbor) modify->pre_neighbor();
+  neighbor->build();
+  load_grains();
+  timer->stamp(TIME_NEIGHBOR);
+}
+
+bool FusedVerlet::end_of_step_is_looked_at() const {
+  const bigint step = update->ntimestep;
+  if (step == last_step_ || step == output->next || quit_requested_ || stock_step_due(step + 1)) return true;
+  for (int n = 0; n < modify->nfix; ++n) {
+    if (!(modify->fmask[n] & LAMMPS_NS::FixConst::END_OF_STEP)) continue;
+    const LAMMPS_NS::Fix* fix = modify->fix[n];
+    if (step % fix->nevery != 0) continue;
+    if (fix != plan_.held_force_fix || plan_.held_force->end_of_step_uses_atoms()) return true;
+  }
+  return false;
+}
+
+void FusedVerlet::force_pass(bool closes) {
+  const double kick = (closes ? 0.5 : 1.0) * update->dt * force->ftm2v;
+  const Vec3* held = plan_.held_force ? plan_.held_force->held_forces() : nullptr;
+  const PassSettings settings{.slip = {History::advance, update->dt},
+                              .kick = kick,
+                              .drift = closes ? 0.0 : update->dt,
+                              .gravity = plan_.acceleration,
+                              .held_forces = held};
+  const GrainLoop::Observer store_loads = [&](int i, const LoadRecord& load) {
+    Column(atom->f[i]) = ConstColumn(load.force);
+    Column(atom->torque[i]) = ConstColumn(load.torque);
+    if (held) Column(atom->f[i]) += held[i];
+  };
+  loop_.force_pass(settings, closes ? &store_loads : nullptr);
+  histories_are_ours_ = true;
+  contact_statistics().note(loop_.largest_overlap());
+  if (plan_.held_force) plan_.held_force->held_forces_applied();
+  if (closes) {
+    store_state();
+    for (LAMMPS_NS::Fix* fix : plan_.gravity) fix->post_force(vflag);
+    closed_ = true;
+  } else {
+    note_drift(loop_.square_speed());
+  }
+}
+
+void FusedVerlet::end_step() {
+  if (modify->n_end_of_step) modify->end_of_step();
+  if (closed_ && quit_requested_) stop_ = true;
+  if (update->ntimestep != output->next) return;
+  timer->stamp();
+  store_histories();
+  output->write(update->ntimestep);
+  timer->stamp(TIME_OUTPUT);
+}
+
+void FusedVerlet::load_grains() {
+  const GrainCounts counts{atom->nlocal, atom->nghost};
+  loop_.start(counts, plan_.pair->tangential(), plan_.pair->contacts());
+  load_state();
+  load_pairs();
+  loop_.walls().clear();
+  for (FixWallSdf* wall : plan_.walls) loop_.walls().emplace_back(*wall);
+  loop_.finish_loading(neighbor->skin);
+  ghosts_.load(*lmp);
+  built_at_.resize(counts.local);
+  for (int i = 0; i < counts.local; ++i) built_at_[i] = ConstColumn(atom->x[i]);
+  moved_ = 0.0;
+  reneighbour_next_ = false;
+  histories_are_ours_ = false;
+}
+
+void FusedVerlet::load_state() {
+  const int total = atom->nlocal + atom->nghost;
+  for (int i = 0; i < total; ++i)
+    loop_.set_grain(i, {.position = atom->x[i],
+                        .velocity = atom->v[i],
+                        .spin = atom->omega[i],
+                        .radius = atom->radius[i],
+                        .mass = atom->rmass[i],
+                        .type = atom->type[i]});
+}
+
+// LIGGGHTS's list holds every pair once, with the smaller index first, and all grains in order.
+void FusedVerlet::load_pairs() {
+  const auto& gran = static_cast<const LAMMPS_NS::PairGran&>(*force->pair);
+  const LAMMPS_NS::NeighList& list = *gran.list;
+  const int offset = plan_.pair->history_offset();
+  const LAMMPS_NS::NeighList* histories = offset >= 0 ? list.listgranhistory : nullptr;
+  GASGRAIN_ASSERT(list.inum == atom->nlocal);
+  ContactList& pairs = loop_.pairs();
+  std::vector<TouchingPair> touching;
+  for (int i = 0; i < list.inum; ++i) {
+    GASGRAIN_ASSERT(list.ilist[i] == i);
+    for (int n = 0; n < list.numneigh[i]; ++n) {
+      const int j = list.firstneigh[i][n] & NEIGHMASK;
+      GASGRAIN_ASSERT(j > i);
+      pairs.add_candidate(j);
+      if (histories && histories->firstneigh[i][n]) {
+        const double* spring = histories->firstdouble[i] + 3 * n + offset;
+        touching.push_back(
+            {pairs.row_begin(i) + n, {{spring[0], spring[1], spring[2]}, 0.0}});
+      }
+    }
+    pairs.end_row();
+  }
+  pairs.set_touching(std::move(touching));
+}
+
+void FusedVerlet::store_state() {
+  const int total = loop_.counts().total();
+  for (int i = 0; i < total; ++i) {
+    Column(atom->x[i]) = ConstColumn(loop_.grain(i).position);
+    Column(atom->v[i]) = ConstColumn(loop_.grain(i).velocity);
+    Column(atom->omega[i]) = ConstColumn(loop_.spin(i).velocity);
+  }
+}
+
+void FusedVerlet::store_histories() {
+  if (!histories_are_ours_) return;
+  histories_are_ours_ = false;
+  for (const WallContacts& wall : loop_.walls()) wall.store();
+  // Pair::compute() sets this flag: the list is newer than what fix contacthistory holds
+  int dimension = 0;
+  *static_cast<int*>(force->pair->extract("computeflag", dimension)) = 1;
+  const int offset = plan_.pair->history_offset();
+  if (offset < 0) return;
+  const LAMMPS_NS::NeighList& histories =
+      *static_cast<const LAMMPS_NS::PairGran&>(*force->pair).list->listgranhistory;
+  ContactList& pairs = loop_.pairs();
+  const std::vector<TouchingPair>& touching = pairs.touching();
+  auto pair = touching.begin();
+  for (int i = 0; i < loop_.counts().local; ++i) {
+    const int begin = pairs.row_begin(i), count = pairs.row_end(i) - begin;
+    std::fill_n(histories.firstneigh[i], count, 0);
+    std::fill_n(histories.firstdouble[i], 3 * count, 0.0);
+    for (; pair != touching.end() && pair->candidate < begin + count; ++pair) {
+      const int n = pair->candidate - begin;
+      histories.firstneigh[i][n] = touching_flags();
+      std::copy_n(pair->spring.displacement, 3, histories.firstdouble[i] + 3 * n + offset);
+    }
+  }
+}
+
+}  // namespace gasgrain::plugins

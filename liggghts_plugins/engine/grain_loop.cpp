@@ -1,0 +1,143 @@
+#include "liggghts_plugins/engine/grain_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gasgrain::plugins {
+
+namespace {
+
+// Margin of near pairs as a share of the skin. Smaller: fewer tests per step, more frequent choice.
+constexpr double near_share = 0.3;
+
+}  // namespace
+
+void GrainLoop::start(GrainCounts counts, TangentialModel tangential,
+                      const GrainContactTable& contacts) {
+  counts_ = counts;
+  tangential_ = tangential;
+  contacts_ = &contacts;
+  const int size = counts.total() + 2;
+  grains_.resize(size);
+  spins_.resize(size);
+  masses_.resize(size);
+  types_.resize(size);
+  const double places[2][3] = {{0, 0, 0}, {1, 0, 0}}, at_rest[3] = {0, 0, 0};
+  for (int n = 0; n < 2; ++n)
+    set_grain(counts.total() + n, {places[n], at_rest, at_rest, 0.0, 1.0, 1});
+  pairs_.start(counts.local, counts.total());
+}
+
+void GrainLoop::set_grain(int i, const GrainState& state) {
+  GrainRecord& grain = grains_[i];
+  SpinRecord& spin = spins_[i];
+  for (int d = 0; d < 3; ++d) {
+    grain.position[d] = state.position[d];
+    grain.velocity[d] = state.velocity[d];
+    spin.velocity[d] = state.spin[d];
+  }
+  constexpr double sphere = 0.4;  // moment of inertia / (m r^2)
+  grain.radius = state.radius;
+  grain.inverse_mass = 1.0 / state.mass;
+  spin.inverse_inertia =
+      state.radius > 0 ? 1.0 / (sphere * state.mass * state.radius * state.radius) : 0.0;
+  masses_[i] = state.mass;
+  types_[i] = state.type;
+}
+
+bool GrainLoop::all_pairs_alike() const {
+  for (int i = 1; i < counts_.total(); ++i)
+    if (types_[i] != types_[0] || masses_[i] != masses_[0]) return false;
+  return true;
+}
+
+PairCoefficients GrainLoop::coefficients(int i, int j) const {
+  const ContactCoefficients c = (*contacts_)(types_[i], types_[j]).between(masses_[i], masses_[j]);
+  return {.k = c.spring_constant,
+          .eta = c.damping_coefficient,
+          .k_t = c.tangential_spring_constant,
+          .eta_t = c.tangential_damping,
+          .mu = c.friction_coefficient,
+          .unused = {}};
+}
+
+// Slots in use at a time: those of the block and as far as its pairs reach.
+void GrainLoop::size_ring() {
+  int size = 1;
+  while (size < grains_per_block + pairs_.widest_pair() + 1) size *= 2;
+  loads_.assign(size + 1, LoadRecord{});
+  ring_ = {
+      .slots = loads_.data(), .mask = size - 1, .discarded = size, .local_count = counts_.local};
+}
+
+void GrainLoop::finish_loading(double skin) {
+  uniform_ = all_pairs_alike();
+  size_ring();
+  near_margin_ = near_share * skin;
+  travelled_ = 0.0;
+  choose_near_pairs();
+  for (WallContacts& wall : walls_) wall.load(counts_.local);
+}
+
+void GrainLoop::choose_near_pairs() {
+  pairs_.choose_near_pairs(grains_.data(), near_margin_, uniform_, [this](int i, int j) {
+    return uniform_ ? coefficients(0, 0) : coefficients(i, j);
+  });
+  near_travelled_ = 0.0;
+}
+
+void GrainLoop::note_travel(double distance) {
+  travelled_ += distance;
+  near_travelled_ += distance;
+}
+
+void GrainLoop::force_pass(const PassSettings& settings, const Observer* observer) {
+  if (2.0 * near_travelled_ > near_margin_) choose_near_pairs();
+  largest_[0] = largest_[1] = 0.0;
+  const ContactBatch contacts{.grains = grains_.data(),
+                              .spins = spins_.data(),
+                              .first = nullptr,
+                              .second = nullptr,
+                              .springs = nullptr,
+                              .coefficients = nullptr,
+                              .ring = ring_,
+                              .contacts = nullptr,
+                              .count = 0,
+                              .dummy = 0,
+                              .slip_time = settings.slip.duration,
+                              .largest = largest_};
+  const WallBatch wall_batch{.grains = grains_.data(),
+                             .spins = spins_.data(),
+                             .types = types_.data(),
+                             .ring = ring_,
+                             .step = settings.slip,
+                             .travelled = travelled_};
+  IntegrationBatch integration{
+      .grains = grains_.data(),
+      .spins = spins_.data(),
+      .ring = ring_,
+      .held_forces = settings.held_forces ? settings.held_forces->data() : nullptr,
+      .begin = 0,
+      .end = 0,
+      .gravity = {settings.gravity[0], settings.gravity[1], settings.gravity[2]},
+      .kick = settings.kick,
+      .drift = settings.drift,
+      .square_speed = 0.0};
+
+  for (WallContacts& wall : walls_) wall.begin_step();
+  for (int block = 0; block < pairs_.block_count(); ++block) {
+    integration.begin = block * grains_per_block;
+    integration.end = std::min(counts_.local, integration.begin + grains_per_block);
+    pairs_.add_contact_loads(block, contacts, tangential_, uniform_);
+    for (WallContacts& wall : walls_) wall.add_contact_loads(block, wall_batch);
+    if (observer)
+      for (int i = integration.begin; i < integration.end; ++i)
+        (*observer)(i, loads_[i & ring_.mask]);
+    contact_kernel().integrate(integration);
+  }
+  loads_[ring_.discarded] = {};
+  for (const WallContacts& wall : walls_) wall.end_step();
+  square_speed_ = integration.square_speed;
+}
+
+}  // namespace gasgrain::plugins

@@ -1,0 +1,93 @@
+// The inner loop of the fused engine: everything between two reneighbourings, without LIGGGHTS.
+//
+// Protocol: load the grains (start, set_grain for all, candidates, touching pairs, walls), then per
+// step: positions of the present step are in the records (ghosts too) -> prepare() -> force_pass().
+// A pass adds up all loads and moves the grains on to the next step; an `observer` sees the
+// complete load of each block before.
+//
+// A local grain comes to its final load when its block is done, because pairs are ordered: the
+// block is integrated while it is in cache, and nobody reads its old position afterwards.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "liggghts_plugins/contact_statistics.hpp"
+#include "liggghts_plugins/engine/contact_list.hpp"
+#include "liggghts_plugins/engine/wall_contacts.hpp"
+
+namespace gasgrain::plugins {
+
+struct GrainCounts {
+  int local = 0;
+  int ghost = 0;
+  int total() const { return local + ghost; }
+};
+
+// State of one grain outside of the loop.
+struct GrainState {
+  const double* position;  // m
+  const double* velocity;  // m/s
+  const double* spin;      // rad/s
+  double radius;           // m
+  double mass;             // kg
+  int type;
+};
+
+struct PassSettings {
+  TangentialStep slip;
+  double kick;                  // s, velocities: dt, or dt/2 when the step ends here
+  double drift;                 // s, positions: dt, or 0
+  Vec3 gravity;                 // m/s^2
+  const Vec3* held_forces;      // N per local grain, or nullptr
+};
+
+class GrainLoop {
+ public:
+  // Called for every local grain with its contact load, before integration.
+  using Observer = std::function<void(int grain, const LoadRecord& load)>;
+
+  void start(GrainCounts counts, TangentialModel tangential, const GrainContactTable& contacts);
+  void set_grain(int i, const GrainState& state);
+  ContactList& pairs() { return pairs_; }
+  std::vector<WallContacts>& walls() { return walls_; }
+  // After all of the above. `skin`: distance of the surfaces of candidates, m.
+  void finish_loading(double skin);
+
+  GrainCounts counts() const { return counts_; }
+  GrainRecord& grain(int i) { return grains_[i]; }
+  SpinRecord& spin(int i) { return spins_[i]; }
+
+  // Tells that all grains, ghosts too, moved by at most this, m. Kept for the near pairs and walls.
+  void note_travel(double distance);
+  void force_pass(const PassSettings& settings, const Observer* observer);
+  double square_speed() const { return square_speed_; }  // largest of the last pass, m^2/s^2
+  LargestOverlap largest_overlap() const { return {largest_[0], largest_[1]}; }
+
+ private:
+  bool all_pairs_alike() const;
+  PairCoefficients coefficients(int i, int j) const;
+  void size_ring();
+  void choose_near_pairs();
+
+  GrainCounts counts_;
+  TangentialModel tangential_ = TangentialModel::history;
+  const GrainContactTable* contacts_ = nullptr;
+  std::vector<GrainRecord> grains_;  // local, ghosts, two that never touch
+  std::vector<SpinRecord> spins_;
+  std::vector<double> masses_;  // kg
+  std::vector<int> types_;
+  std::vector<LoadRecord> loads_;
+  LoadRing ring_{};
+  ContactList pairs_;
+  std::vector<WallContacts> walls_;
+  bool uniform_ = false;
+  double near_margin_ = 0;      // m
+  double near_travelled_ = 0;   // m since the near pairs were chosen
+  double travelled_ = 0;        // m since loading
+  double square_speed_ = 0;
+  double largest_[2] = {0, 0};
+};
+
+}  // namespace gasgrain::plugins

@@ -1,0 +1,213 @@
+#include "liggghts_plugins/engine/scene_plan.hpp"
+
+#include <atom.h>
+#include <comm.h>
+#include <domain.h>
+#include <fix.h>
+#include <fix_gravity.h>
+#include <fix_nve_sphere.h>
+#include <force.h>
+#include <lammps.h>
+#include <modify.h>
+#include <neigh_list.h>
+#include <neighbor.h>
+#include <pair_gran.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+
+#include "liggghts_plugins/fix_wall_sdf.h"
+#include "liggghts_plugins/pair_gran_cgm.hpp"
+#include "liggghts_plugins/private_member.hpp"
+
+namespace gasgrain::plugins {
+
+using LAMMPS_NS::FixGravity;
+using LAMMPS_NS::FixNVESphere;
+
+struct GravityVariables {
+  using Member = int FixGravity::*;
+  friend Member private_member(GravityVariables);
+};
+struct SphereExtra {
+  using Member = int FixNVESphere::*;
+  friend Member private_member(SphereExtra);
+};
+struct SphereAddedMass {
+  using Member = bool FixNVESphere::*;
+  friend Member private_member(SphereAddedMass);
+};
+template struct GrantAccess<GravityVariables, &FixGravity::varflag>;
+template struct GrantAccess<SphereExtra, &FixNVESphere::extra>;
+template struct GrantAccess<SphereAddedMass, &FixNVESphere::useAM_>;
+
+namespace {
+
+using LAMMPS_NS::Fix;
+using LAMMPS_NS::LAMMPS;
+namespace hook = LAMMPS_NS::FixConst;
+
+constexpr int group_all = 0;
+
+// Hooks that the engine calls as LIGGGHTS does, with the atom arrays ready.
+constexpr int reneighbouring_hooks = hook::PRE_EXCHANGE | hook::PRE_NEIGHBOR;
+// Hooks that do not concern a time step: minimization, respa, energy of thermo output.
+constexpr int harmless_hooks = hook::THERMO_ENERGY | hook::MIN_PRE_EXCHANGE |
+                               hook::MIN_PRE_NEIGHBOR | hook::MIN_PRE_FORCE |
+                               hook::MIN_POST_FORCE | hook::MIN_ENERGY | hook::POST_RUN |
+                               hook::INITIAL_INTEGRATE_RESPA | hook::POST_INTEGRATE_RESPA |
+                               hook::PRE_FORCE_RESPA | hook::POST_FORCE_RESPA |
+                               hook::FINAL_INTEGRATE_RESPA;
+// Styles known to do at reneighbouring nothing but move, insert or delete atoms and their values.
+constexpr std::array reneighbouring_styles = {"contacthistory", "property/atom", "insert/pack",
+                                              "insert/rate/region"};
+
+class Planner {
+ public:
+  explicit Planner(LAMMPS& lmp) : lmp_(lmp) {}
+
+  ScenePlan plan() {
+    look_at_pair();
+    look_at_box();
+    for (int n = 0; n < lmp_.modify->nfix; ++n) look_at_fix(*lmp_.modify->fix[n]);
+    if (integrators_ != 1) oppose("not exactly one fix nve/sphere");
+    return plan_;
+  }
+
+ private:
+  void oppose(const std::string& what) { plan_.obstacles.push_back(what); }
+  void oppose_if(bool condition, const char* what) {
+    if (condition) oppose(what);
+  }
+
+  void look_at_pair() {
+    PairGranCgm* pair = pair_gran_cgm(lmp_);
+    LAMMPS_NS::Force& force = *lmp_.force;
+    if (!pair || static_cast<const LAMMPS_NS::Pair*>(pair->parent()) != force.pair) {
+      oppose("pair style other than gran model cgm");
+      return;
+    }
+    plan_.pair = pair;
+    auto* gran = static_cast<LAMMPS_NS::PairGran*>(force.pair);
+    oppose_if(force.newton_pair, "newton on");
+    oppose_if(force.kspace || force.bond, "kspace or bond style");
+    oppose_if(gran->freeze_group_bit() != 0, "fix freeze");
+    oppose_if(gran->fr_pair() != nullptr, "rigid bodies");
+    oppose_if(lmp_.modify->n_fixes_style("relax") > 0, "fix relax");
+    oppose_if(gran->cpl() != nullptr, "compute pair/gran/local");
+    oppose_if(gran->storeContactForces() || gran->storeContactForcesStress() ||
+                  gran->storeSumDelta() || gran->store_sum_normal_force(),
+              "stored contact forces");
+    const int values = pair->tangential() == TangentialModel::history ? 3 : 0;
+    oppose_if(gran->dnum() != values, "contact history of other styles");
+  }
+
+  void look_at_box() {
+    const LAMMPS_NS::Domain& domain = *lmp_.domain;
+    const LAMMPS_NS::Atom& atom = *lmp_.atom;
+    oppose_if(domain.triclinic != 0, "triclinic box");
+    oppose_if(domain.box_change != 0, "box that changes (shrink-wrapped boundary, fix deform)");
+    oppose_if(domain.dimension != 3, "dimension 2");
+    oppose_if(!atom.sphere_flag || !atom.rmass || atom.molecular != 0, "atom style");
+    oppose_if(atom.radvary_flag != 0, "radii that change");
+    oppose_if(atom.firstgroup >= 0 || lmp_.neighbor->includegroup != 0, "atom_modify first");
+    oppose_if(lmp_.neighbor->build_once != 0, "neigh_modify once");
+    oppose_if(!lmp_.comm->ghost_velocity, "communicate without velocities");
+  }
+
+  void look_at_fix(Fix& fix) {
+    const int hooks = lmp_.modify->fmask[index_of(fix)] & ~harmless_hooks;
+    if (fix.force_reneighbor) plan_.reneighbouring.push_back(&fix);
+    if (fuses(fix)) return;
+    const bool known = std::any_of(reneighbouring_styles.begin(), reneighbouring_styles.end(),
+                                   [&](const char* style) { return is_style(fix, style); });
+    const int understood = hook::END_OF_STEP | (known ? reneighbouring_hooks : 0);
+    const bool every_step = (hooks & hook::END_OF_STEP) != 0 && fix.nevery <= 1;
+    if ((hooks & ~understood) != 0 || every_step)
+      oppose(std::string("fix ") + fix.id + " " + fix.style);
+  }
+
+  // Takes over what this fix does in every step, if it is one of ours or understood.
+  bool fuses(Fix& fix) {
+    const std::string name = std::string("fix ") + fix.id + " " + fix.style;
+    if (auto* wall = dynamic_cast<FixWallSdf*>(&fix)) {
+      plan_.walls.push_back(wall);
+      return true;
+    }
+    if (auto* held = dynamic_cast<HeldForceFix*>(&fix)) {
+      if (plan_.held_force) oppose("second " + name);
+      plan_.held_force = held;
+      plan_.held_force_fix = &fix;
+      return true;
+    }
+    if (is_style(fix, "gravity")) {
+      auto& gravity = static_cast<FixGravity&>(fix);
+      if (gravity.*private_member(GravityVariables()) != 0) oppose(name + " with variables");
+      if (fix.igroup != group_all) oppose(name + " of a group");
+      Vec3 acceleration;
+      gravity.get_gravity(acceleration.data());
+      plan_.gravity.push_back(&fix);
+      plan_.acceleration += acceleration;
+      return true;
+    }
+    if (is_style(fix, "nve/sphere")) {
+      const auto& sphere = static_cast<const FixNVESphere&>(fix);
+      ++integrators_;
+      if (fix.igroup != group_all) oppose(name + " of a group");
+      if (sphere.*private_member(SphereExtra()) != 0 ||
+          sphere.*private_member(SphereAddedMass()))
+        oppose(name + " with options");
+      return true;
+    }
+    return false;
+  }
+
+  static bool is_style(const Fix& fix, const char* style) {
+    return std::strcmp(fix.style, style) == 0;
+  }
+  int index_of(const Fix& fix) const {
+    return static_cast<int>(std::find(lmp_.modify->fix, lmp_.modify->fix + lmp_.modify->nfix, &fix) -
+                            lmp_.modify->fix);
+  }
+
+  LAMMPS& lmp_;
+  ScenePlan plan_;
+  int integrators_ = 0;
+};
+
+const char* tangential_name(TangentialModel model) {
+  switch (model) {
+    case TangentialModel::off:
+      return "off";
+    case TangentialModel::no_history:
+      return "no_history";
+    case TangentialModel::history:
+      break;
+  }
+  return "history";
+}
+
+}  // namespace
+
+std::string ScenePlan::text() const {
+  if (!fused()) {
+    std::string reasons;
+    for (const std::string& obstacle : obstacles)
+      reasons += (reasons.empty() ? "" : ", ") + obstacle;
+    return "Engine: stock time integration, because of " + reasons;
+  }
+  std::string text =
+      std::string("Engine: fused: cgm tangential ") + tangential_name(pair->tangential());
+  if (!gravity.empty()) text += ", gravity";
+  if (!walls.empty()) text += ", wall/sdf x " + std::to_string(walls.size());
+  if (held_force) text += ", " + std::string(held_force_fix->style);
+  return text + ", nve/sphere";
+}
+
+ScenePlan plan_scene(LAMMPS& lmp) {
+  return Planner(lmp).plan();
+}
+
+}  // namespace gasgrain::plugins
