@@ -154,17 +154,8 @@ void FixWallSdf::post_force(int) {
   load_ = {};
   totals_valid_ = false;
   const TangentialStep step{update->setupflag ? History::keep : History::advance, update->dt};
-  switch (settings_.tangential) {
-    case TangentialModel::off:
-      apply_contacts<TangentialModel::off>(step);
-      break;
-    case TangentialModel::no_history:
-      apply_contacts<TangentialModel::no_history>(step);
-      break;
-    case TangentialModel::history:
-      apply_contacts<TangentialModel::history>(step);
-      break;
-  }
+  with_tangential_model(settings_.tangential,
+                        [&]<TangentialModel model>() { apply_contacts<model>(step); });
   if (update->setupflag)
     impulse_.start(load_.force);
   else
@@ -199,18 +190,17 @@ void FixWallSdf::apply_contact(int i, const DistanceSample& wall, const Tangenti
   const double gradient = wall.gradient.norm();
   const Vec3 n = wall.gradient / gradient;
   const double lever = radius - 0.5 * overlap;
-  const ContactMotion motion = contact_motion(ConstColumn(atom->v[i]) - body_.surface_velocity,
-                                              lever * ConstColumn(atom->omega[i]), n);
+  const ContactState state{.n = n,
+                           .overlap = gradient * overlap,
+                           .relative_velocity = ConstColumn(atom->v[i]) - body_.surface_velocity,
+                           .lever_spin = lever * ConstColumn(atom->omega[i])};
   const ContactCoefficients c =
       contacts_(atom->type[i], wall_type_).first_against_fixed(atom->rmass[i]);
-  const double f_n = normal_force(c, gradient * overlap, motion.normal_velocity);
-  const Vec3 f_t =
-      tangential_force<tangential>(c, f_n, n, motion.tangential_velocity, displacement_[i], step);
-  const Vec3 f = f_n * n + f_t;
-  Column(atom->f[i]) += f;
-  Column(atom->torque[i]) += lever * f_t.cross(n);
+  const ContactForce f = contact_force<tangential>(c, state, displacement_[i], step);
+  Column(atom->f[i]) += f.force;
+  Column(atom->torque[i]) += lever * f.moment;
 
-  load_.add(f, ConstColumn(atom->x[i]) - lever * n,
+  load_.add(f.force, ConstColumn(atom->x[i]) - lever * n,
             {.length = overlap, .relative = overlap / (2.0 * radius)});
 }
 

@@ -262,14 +262,8 @@ void PairGranCgm::compute_force(PairGran* pair, int eflag, int vflag, int addfla
 template <class Report>
 void PairGranCgm::loop_of_tangential_model(PairGran& pair, Report report) {
   if (pair.list->inum == 0) return;
-  switch (settings_.tangential) {
-    case TangentialModel::off:
-      return loop<TangentialModel::off>(pair, report);
-    case TangentialModel::no_history:
-      return loop<TangentialModel::no_history>(pair, report);
-    case TangentialModel::history:
-      return loop<TangentialModel::history>(pair, report);
-  }
+  with_tangential_model(settings_.tangential,
+                        [&]<TangentialModel model>() { loop<model>(pair, report); });
 }
 
 template <TangentialModel tangential, class Report>
@@ -302,7 +296,7 @@ void PairGranCgm::loop(PairGran& pair, Report report) {
       if (rsq >= r_sum * r_sum) {
         if (with_history && touching[jj]) {
           touching[jj] &= ~contact_bits;
-          column(history + history_offset_, 0).setZero();
+          Column(history + history_offset_).setZero();
         }
         continue;
       }
@@ -311,37 +305,35 @@ void PairGranCgm::loop(PairGran& pair, Report report) {
       if (overlap > largest.length) largest.length = overlap;
       if (overlap > largest.relative * r_sum) largest.relative = overlap / r_sum;
 
-      const Vec3 n = delta / r;
       const double lever_i = r_i - 0.5 * overlap;
       const double lever_j = g.radius[j] - 0.5 * overlap;
-      const ContactMotion motion =
-          contact_motion(v_i - column(g.v, j), lever_i * omega_i + lever_j * column(g.omega, j), n);
+      const ContactState state{.n = delta / r,
+                               .overlap = overlap,
+                               .relative_velocity = v_i - column(g.v, j),
+                               .lever_spin = lever_i * omega_i + lever_j * column(g.omega, j)};
       const ContactCoefficients c =
           coefficients(contacts_(g.type[i], g.type[j]), pair_masses(pair, g, i, j));
-      const double f_n = normal_force(c, overlap, motion.normal_velocity);
 
       Vec3 displacement = Vec3::Zero();
       if (with_history) {
         touching[jj] |= contact_bits;
-        displacement = column(history + history_offset_, 0);
+        displacement = Column(history + history_offset_);
       }
-      const Vec3 f_t =
-          tangential_force<tangential>(c, f_n, n, motion.tangential_velocity, displacement, step);
+      const ContactForce f = contact_force<tangential>(c, state, displacement, step);
       if (with_history && step.history == History::advance)
-        column(history + history_offset_, 0) = displacement;
+        Column(history + history_offset_) = displacement;
 
-      const Vec3 f = f_n * n + f_t;
-      const Vec3 moment = f_t.cross(n);
       if (apply) {
-        f_i += f;
-        torque_i += lever_i * moment;
+        f_i += f.force;
+        torque_i += lever_i * f.moment;
         if (both_sides || j < g.local_count) {
           const double relax_j = pair.relax(j);
-          column(g.f, j) -= relax_j * f;
-          column(g.torque, j) += (relax_j * lever_j) * moment;
+          column(g.f, j) -= relax_j * f.force;
+          column(g.torque, j) += (relax_j * lever_j) * f.moment;
         }
       }
-      report({i, j, delta.data(), n.data(), f, lever_i * moment, lever_j * moment, rsq, history});
+      report({i, j, delta.data(), state.n.data(), f.force, lever_i * f.moment, lever_j * f.moment,
+              rsq, history});
     }
     const double relax_i = pair.relax(i);
     column(g.f, i) += relax_i * f_i;

@@ -8,19 +8,17 @@
 
 namespace gasgrain::plugins {
 
-// The motion of the two surfaces relative to each other at the contact.
-struct ContactMotion {
-  double normal_velocity;    // m/s, > 0 when separating
-  Vec3 tangential_velocity;  // m/s, of this grain's surface against the other one
+// How this grain stands to the other grain or the wall.
+struct ContactState {
+  Vec3 n;                  // unit vector from the other one to this grain
+  double overlap;          // m; times |grad phi| for a field that is no exact distance
+  Vec3 relative_velocity;  // of this grain's centre against the other's centre or the wall, m/s
+  Vec3 lever_spin;         // sum of lever arm times angular velocity of the two, m/s
 };
 
-// n points from the other grain (or the wall) to this one; lever_spin = sum of lever arm times
-// angular velocity of the two, m/s.
-inline ContactMotion contact_motion(const Vec3& relative_velocity, const Vec3& lever_spin,
-                                    const Vec3& n) {
-  const double v_n = relative_velocity.dot(n);
-  return {.normal_velocity = v_n,
-          .tangential_velocity = relative_velocity - v_n * n + n.cross(lever_spin)};
+// Velocity of this grain's surface against the other one, within the contact plane, m/s.
+inline Vec3 tangential_velocity(const ContactState& s) {
+  return s.relative_velocity - s.relative_velocity.dot(s.n) * s.n + s.n.cross(s.lever_spin);
 }
 
 // Whether a call advances the tangential history or only looks at the present state (set-up of a
@@ -29,21 +27,48 @@ enum class History { advance, keep };
 
 struct TangentialStep {
   History history;
-  double duration;  // m/s times this is the slip, s
+  double duration;  // s; times the tangential velocity this is the slip
 };
 
 // Tangential force on this grain, N. `displacement` (m) is used by TangentialModel::history alone.
 template <TangentialModel model>
-inline Vec3 tangential_force(const ContactCoefficients& c, double normal_force, const Vec3& n,
-                             const Vec3& velocity, Vec3& displacement, const TangentialStep& step) {
+inline Vec3 tangential_force(const ContactCoefficients& c, double f_n, const ContactState& s,
+                             Vec3& displacement, const TangentialStep& step) {
   if constexpr (model == TangentialModel::off) return Vec3::Zero();
-  if constexpr (model == TangentialModel::no_history)
-    return tangential_dashpot_force(c, normal_force, velocity);
+  const Vec3 v_t = tangential_velocity(s);
+  if constexpr (model == TangentialModel::no_history) return tangential_dashpot_force(c, f_n, v_t);
   const bool advance = step.history == History::advance;
-  if (advance) advance_tangential_displacement(displacement, step.duration * velocity, n);
-  const TangentialForce f = tangential_spring_force(c, normal_force, displacement, velocity);
+  if (advance) advance_tangential_displacement(displacement, step.duration * v_t, s.n);
+  const TangentialForce f = tangential_spring_force(c, f_n, displacement, v_t);
   if (f.sliding && advance) displacement = sliding_displacement(c, f.force);
   return f.force;
+}
+
+struct ContactForce {
+  Vec3 force;   // on this grain, N
+  Vec3 moment;  // force x n, N; times its lever arm the torque on either grain
+};
+
+template <TangentialModel model>
+inline ContactForce contact_force(const ContactCoefficients& c, const ContactState& s,
+                                  Vec3& displacement, const TangentialStep& step) {
+  const double f_n = normal_force(c, s.overlap, s.relative_velocity.dot(s.n));
+  const Vec3 f_t = tangential_force<model>(c, f_n, s, displacement, step);
+  return {.force = f_n * s.n + f_t, .moment = f_t.cross(s.n)};
+}
+
+// Calls `run` with the tangential model as a template argument: run.template operator()<model>().
+template <class Run>
+inline auto with_tangential_model(TangentialModel model, const Run& run) {
+  switch (model) {
+    case TangentialModel::off:
+      return run.template operator()<TangentialModel::off>();
+    case TangentialModel::no_history:
+      return run.template operator()<TangentialModel::no_history>();
+    case TangentialModel::history:
+      break;
+  }
+  return run.template operator()<TangentialModel::history>();
 }
 
 }  // namespace gasgrain::plugins

@@ -20,19 +20,6 @@ using ConstColumn = Eigen::Map<const Vec3>;
 
 constexpr const char* where = "fix wall/gran model cgm";
 
-Vec3 tangential(TangentialModel model, const ContactCoefficients& c, double f_n, const Vec3& n,
-                const Vec3& velocity, Vec3& displacement, const TangentialStep& step) {
-  switch (model) {
-    case TangentialModel::off:
-      return tangential_force<TangentialModel::off>(c, f_n, n, velocity, displacement, step);
-    case TangentialModel::no_history:
-      return tangential_force<TangentialModel::no_history>(c, f_n, n, velocity, displacement, step);
-    case TangentialModel::history:
-      break;
-  }
-  return tangential_force<TangentialModel::history>(c, f_n, n, velocity, displacement, step);
-}
-
 }  // namespace
 
 WallGranCgm::WallGranCgm(LAMMPS_NS::LAMMPS* liggghts, FixWallGran* parent, int64_t variant)
@@ -68,21 +55,24 @@ WallGranCgm::Forces WallGranCgm::forces(const FixWallGran& wall,
   const int i = contact.i;
   const double overlap = contact.deltan;
   const double lever = contact.radi - 0.5 * overlap;
-  const ContactMotion motion = contact_motion(ConstColumn(atom->v[i]) - ConstColumn(wall_velocity),
-                                              lever * ConstColumn(atom->omega[i]), n);
+  const ContactState state{
+      .n = n,
+      .overlap = overlap,
+      .relative_velocity = ConstColumn(atom->v[i]) - ConstColumn(wall_velocity),
+      .lever_spin = lever * ConstColumn(atom->omega[i])};
   const ContactCoefficients c =
       contacts_(atom->type[i], wall.atom_type_wall()).first_against_fixed(contact.mi);
-  const double f_n = normal_force(c, overlap, motion.normal_velocity);
 
   Vec3 displacement = Vec3::Zero();
   Column history(contact.contact_history ? contact.contact_history + history_offset_ : nullptr);
   if (history_offset_ >= 0) displacement = history;
   const bool advance = wall.computeflag() && wall.shearupdate();
   const TangentialStep step{advance ? History::advance : History::keep, update->dt};
-  const Vec3 f_t =
-      tangential(settings_.tangential, c, f_n, n, motion.tangential_velocity, displacement, step);
+  const ContactForce f = with_tangential_model(settings_.tangential, [&]<TangentialModel model>() {
+    return contact_force<model>(c, state, displacement, step);
+  });
   if (history_offset_ >= 0 && advance) history = displacement;
-  return {.force = f_n * n + f_t, .torque = lever * f_t.cross(n)};
+  return {.force = f.force, .torque = lever * f.moment};
 }
 
 void WallGranCgm::compute_force(FixWallGran* wall, SurfacesIntersectData& contact, bool touching,

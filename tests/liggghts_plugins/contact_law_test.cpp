@@ -145,9 +145,8 @@ TEST(TangentialForce, history_stays_in_the_contact_plane) {
 
 TEST(TangentialForce, keeping_the_history_leaves_it_untouched) {
   Vec3 displacement(0.03, 0.04, 0);
-  const TangentialStep look{History::keep, 1e-6};
-  tangential_force<TangentialModel::history>(rough, 10, Vec3::UnitZ(), Vec3(1, 0, 0), displacement,
-                                             look);
+  const ContactState state{Vec3::UnitZ(), 0.1, Vec3(1, 0, 0), Vec3::Zero()};
+  contact_force<TangentialModel::history>(rough, state, displacement, {History::keep, 1e-6});
   EXPECT_EQ(displacement, Vec3(0.03, 0.04, 0));
 }
 
@@ -158,12 +157,22 @@ TEST(TangentialForce, without_history_the_dashpot_is_limited_by_friction) {
               1e-15);
 }
 
-TEST(ContactMotion, rolling_without_slip_has_no_tangential_velocity) {
+TEST(ContactState, rolling_without_slip_has_no_tangential_velocity) {
   const double lever = 0.01, spin = 3;
-  const Vec3 n = Vec3::UnitZ();  // grain above a floor, rolling along x: omega about +y
-  const ContactMotion m = contact_motion(Vec3(lever * spin, 0, 0), lever * Vec3(0, spin, 0), n);
-  EXPECT_NEAR(m.tangential_velocity.norm(), 0, 1e-16);
-  EXPECT_EQ(m.normal_velocity, 0);
+  // grain above a floor, rolling along x: omega about +y
+  const ContactState state{Vec3::UnitZ(), 0, Vec3(lever * spin, 0, 0), lever * Vec3(0, spin, 0)};
+  EXPECT_NEAR(tangential_velocity(state).norm(), 0, 1e-16);
+}
+
+TEST(ContactForce, friction_brakes_the_surface_and_turns_the_grain_into_rolling) {
+  Vec3 displacement = Vec3::Zero();
+  // sliding along +x without spin above a floor
+  const ContactState state{Vec3::UnitZ(), 0.1, Vec3(1, 0, 0), Vec3::Zero()};
+  const ContactForce f =
+      contact_force<TangentialModel::history>(rough, state, displacement, {History::advance, 1.0});
+  EXPECT_LT(f.force[0], 0);
+  EXPECT_NEAR(f.force[2], 10, 1e-12);
+  EXPECT_GT(f.moment[1], 0);  // omega about +y is rolling along +x
 }
 
 }  // namespace
