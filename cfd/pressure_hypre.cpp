@@ -4,6 +4,8 @@
 // - Directions of one cell are left out of hypre's grid; the matrix is stored symmetric.
 // - Grid, stencil, matrix and vectors live as long as the solver. The V-cycle is set up again only
 //   when a coefficient changed.
+// - Coarse operators are Galerkin's, smoothed by weighted Jacobi: the cheaper seven-point coarse
+//   operators with red-black Gauss-Seidel become indefinite when solid cells coarsen to a few.
 // - PFMG stalls on a singular matrix, so one cell of every region without outlet gets a small extra
 //   diagonal. With a right-hand side of zero sum the solution has p = 0 there and satisfies the
 //   original equations exactly; the extra diagonal fixes the constant, nothing else. The mean of p
@@ -27,9 +29,9 @@ namespace gasgrain::cfd {
 namespace {
 
 constexpr int restarts = 5;
-constexpr double pin = 1e-2;     // extra diagonal of a pinned cell, relative
-constexpr int non_galerkin = 1;  // PFMG coarse operator: cheap, seven points on all levels
-constexpr int red_black_gauss_seidel = 2;  // PFMG smoother, symmetric
+constexpr double pin = 1e-2;        // extra diagonal of a pinned cell, relative
+constexpr int galerkin = 0;         // PFMG coarse operator
+constexpr int weighted_jacobi = 1;  // PFMG smoother, symmetric
 
 void initialize_hypre_once() {
   static const bool done = [] {
@@ -183,8 +185,8 @@ void HypreSolver::create_solver() {
   HYPRE_StructPFMGSetMaxIter(cycle_, 1);
   HYPRE_StructPFMGSetTol(cycle_, 0.0);
   HYPRE_StructPFMGSetZeroGuess(cycle_);
-  HYPRE_StructPFMGSetRAPType(cycle_, non_galerkin);
-  HYPRE_StructPFMGSetRelaxType(cycle_, red_black_gauss_seidel);
+  HYPRE_StructPFMGSetRAPType(cycle_, galerkin);
+  HYPRE_StructPFMGSetRelaxType(cycle_, weighted_jacobi);
   HYPRE_StructPFMGSetNumPreRelax(cycle_, 1);
   HYPRE_StructPFMGSetNumPostRelax(cycle_, 1);
   HYPRE_StructPFMGSetSkipRelax(cycle_, 0);
