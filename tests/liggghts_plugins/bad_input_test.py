@@ -1,5 +1,6 @@
 """Bad input ends every rank with one clear error."""
 
+import concurrent.futures
 import unittest
 
 from liggghts_run import Bench, Grain, cgm_properties, data_file, preamble
@@ -85,16 +86,20 @@ CASES = {
 
 class BadInput(unittest.TestCase):
     def check(self, ranks):
-        for name, (text, words) in CASES.items():
+        def run(name):
+            bench = Bench({"grains.data": GRAINS, "case.toml": CASE})
+            return bench.run(CASES[name][0], ranks=ranks, check=False)
+
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            results = list(pool.map(run, CASES))
+        for name, result in zip(CASES, results):
             with self.subTest(name):
-                bench = Bench({"grains.data": GRAINS, "case.toml": CASE})
-                run = bench.run(text, ranks=ranks, check=False)
-                errors = [line for line in run.text.splitlines() if line.startswith("ERROR")]
-                self.assertNotEqual(run.code, 0, run.text)
-                self.assertEqual(len(errors), 1, run.text)
-                for word in words:
+                errors = [line for line in result.text.splitlines() if line.startswith("ERROR")]
+                self.assertNotEqual(result.code, 0, result.text)
+                self.assertEqual(len(errors), 1, result.text)
+                for word in CASES[name][1]:
                     self.assertIn(word, errors[0])
-                self.assertEqual(run.log.count("ERROR"), 1)
+                self.assertEqual(result.log.count("ERROR"), 1)
 
     def test_one_rank(self):
         self.check(1)
