@@ -55,9 +55,9 @@ void ContactList::find_near_pairs(const GrainRecord* grains, double margin) {
     const int begin = row_begin_[block * grains_per_block];
     const int end = row_begin_[std::min(local_count_, (block + 1) * grains_per_block)];
     places_.resize(end - begin + 2 * group_size);
-    const int count = kernel.near_pairs(
-        grains, {candidate_first_.data(), candidate_second_.data(), begin, end}, margin,
-        places_.data());
+    const int count =
+        kernel.near_pairs(grains, {candidate_first_.data(), candidate_second_.data(), begin, end},
+                          margin, places_.data());
     for (int n = 0; n < count; ++n) {
       near_first_.push_back(candidate_first_[places_[n]]);
       near_second_.push_back(candidate_second_[places_[n]]);
@@ -126,8 +126,8 @@ void ContactList::add_contact_loads(int block, ContactBatch batch, TangentialMod
   const PairRange pairs{near_first_.data(), near_second_.data(), near_begin_[block],
                         near_begin_[block + 1]};
   places_.resize(pairs.end - pairs.begin + 2 * group_size);
-  batch.count = kernel.touching_pairs(batch.grains, pairs, touched_.data(), springs_.data(),
-                                      places_.data());
+  batch.count =
+      kernel.touching_pairs(batch.grains, pairs, touched_.data(), springs_.data(), places_.data());
   if (batch.count == 0) return;
   batch.first = near_first_.data();
   batch.second = near_second_.data();

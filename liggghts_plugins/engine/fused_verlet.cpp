@@ -77,7 +77,8 @@ void FusedVerlet::plan() {
 }
 
 void FusedVerlet::print_plan() const {
-  if (engine_mode(*lmp) == EngineMode::off || comm->me != 0) return;
+  // scripts of stock styles alone print what they print in stock LIGGGHTS
+  if (!plan_.concerns_engine() || comm->me != 0) return;
   const std::string line = plan_.text() + "\n";
   if (screen) std::fputs(line.c_str(), screen);
   if (logfile) std::fputs(line.c_str(), logfile);
@@ -229,7 +230,8 @@ void FusedVerlet::reneighbour() {
 
 bool FusedVerlet::end_of_step_is_looked_at() const {
   const bigint step = update->ntimestep;
-  if (step == last_step_ || step == output->next || quit_requested_ || stock_step_due(step + 1)) return true;
+  if (step == last_step_ || step == output->next || quit_requested_ || stock_step_due(step + 1))
+    return true;
   for (int n = 0; n < modify->nfix; ++n) {
     if (!(modify->fmask[n] & LAMMPS_NS::FixConst::END_OF_STEP)) continue;
     const LAMMPS_NS::Fix* fix = modify->fix[n];
@@ -319,8 +321,7 @@ void FusedVerlet::load_pairs() {
       pairs.add_candidate(j);
       if (histories && histories->firstneigh[i][n]) {
         const double* spring = histories->firstdouble[i] + 3 * n + offset;
-        touching.push_back(
-            {pairs.row_begin(i) + n, {{spring[0], spring[1], spring[2]}, 0.0}});
+        touching.push_back({pairs.row_begin(i) + n, {{spring[0], spring[1], spring[2]}, 0.0}});
       }
     }
     pairs.end_row();

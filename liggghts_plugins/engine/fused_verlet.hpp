@@ -62,12 +62,12 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
 
   GrainLoop loop_;
   GhostExchange ghosts_;
-  std::vector<Vec3> built_at_;    // positions of local grains when the lists were built
-  double moved_ = 0;              // m, bound on the displacement since then, of all ranks
+  std::vector<Vec3> built_at_;  // positions of local grains when the lists were built
+  double moved_ = 0;            // m, bound on the displacement since then, of all ranks
   bool reneighbour_next_ = false;
-  bool closed_ = true;            // the atom arrays hold the end of the present step
+  bool closed_ = true;  // the atom arrays hold the end of the present step
   bool histories_are_ours_ = false;
-  bool quit_requested_ = false;   // a signal asked for the end, on any rank
+  bool quit_requested_ = false;  // a signal asked for the end, on any rank
   bool write_restart_requested_ = false;
   bool stop_ = false;
   LAMMPS_NS::bigint last_step_ = 0;

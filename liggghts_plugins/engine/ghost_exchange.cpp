@@ -14,10 +14,10 @@ struct SwapCount {
   using Member = int Comm::*;
   friend Member private_member(SwapCount);
 };
-#define GASGRAIN_COMM_MEMBER(Tag, Type)     \
-  struct Tag {                              \
-    using Member = Type Comm::*;            \
-    friend Member private_member(Tag);      \
+#define GASGRAIN_COMM_MEMBER(Tag, Type) \
+  struct Tag {                          \
+    using Member = Type Comm::*;        \
+    friend Member private_member(Tag);  \
   }
 GASGRAIN_COMM_MEMBER(SendNumber, int*);
 GASGRAIN_COMM_MEMBER(ReceiveNumber, int*);
@@ -97,8 +97,8 @@ void GhostExchange::update_ghosts(GrainLoop& loop) {
       received = receive_buffer_.data();
       MPI_Sendrecv(send_buffer_.data(), values_per_grain * static_cast<int>(swap.sent.size()),
                    MPI_DOUBLE, swap.send_rank, 0, receive_buffer_.data(),
-                   values_per_grain * swap.received_count, MPI_DOUBLE, swap.receive_rank, 0,
-                   world_, MPI_STATUS_IGNORE);
+                   values_per_grain * swap.received_count, MPI_DOUBLE, swap.receive_rank, 0, world_,
+                   MPI_STATUS_IGNORE);
     }
     for (int n = 0; n < swap.received_count; ++n)
       unpack(loop.grain(swap.first_received + n), loop.spin(swap.first_received + n),

@@ -37,10 +37,10 @@ struct GrainState {
 
 struct PassSettings {
   TangentialStep slip;
-  double kick;                  // s, velocities: dt, or dt/2 when the step ends here
-  double drift;                 // s, positions: dt, or 0
-  Vec3 gravity;                 // m/s^2
-  const Vec3* held_forces;      // N per local grain, or nullptr
+  double kick;              // s, velocities: dt, or dt/2 when the step ends here
+  double drift;             // s, positions: dt, or 0
+  Vec3 gravity;             // m/s^2
+  const Vec3* held_forces;  // N per local grain, or nullptr
 };
 
 class GrainLoop {
@@ -83,9 +83,9 @@ class GrainLoop {
   ContactList pairs_;
   std::vector<WallContacts> walls_;
   bool uniform_ = false;
-  double near_margin_ = 0;      // m
-  double near_travelled_ = 0;   // m since the near pairs were chosen
-  double travelled_ = 0;        // m since loading
+  double near_margin_ = 0;     // m
+  double near_travelled_ = 0;  // m since the near pairs were chosen
+  double travelled_ = 0;       // m since loading
   double square_speed_ = 0;
   double largest_[2] = {0, 0};
 };

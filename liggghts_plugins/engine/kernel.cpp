@@ -84,8 +84,7 @@ struct Coefficients {
 };
 
 GASGRAIN_LANES_INLINE Coefficients coefficients_of(const PairCoefficients& c) {
-  return {all_lanes(c.k), all_lanes(c.eta), all_lanes(c.k_t), all_lanes(c.eta_t),
-          all_lanes(c.mu)};
+  return {all_lanes(c.k), all_lanes(c.eta), all_lanes(c.k_t), all_lanes(c.eta_t), all_lanes(c.mu)};
 }
 
 GASGRAIN_LANES_INLINE Coefficients gather_coefficients(const PairCoefficients* base,
@@ -117,7 +116,10 @@ GASGRAIN_LANES_INLINE Vector tangential_force(const Coefficients& c, Lanes norma
 }
 
 GASGRAIN_LANES_INLINE Quad row(const FourLanes& rows, int lane) {
-  const Lanes pair = lane % 4 == 0 ? rows.a : lane % 4 == 1 ? rows.b : lane % 4 == 2 ? rows.c : rows.d;
+  const Lanes pair = lane % 4 == 0   ? rows.a
+                     : lane % 4 == 1 ? rows.b
+                     : lane % 4 == 2 ? rows.c
+                                     : rows.d;
   return lane < 4 ? low_half(pair) : high_half(pair);
 }
 
@@ -153,8 +155,7 @@ GASGRAIN_LANES_INLINE void loads_of_group(ContactBatch& batch, const int* places
   const Lanes v_n = dot(v, n);
   const Vector v_t = (v - v_n * n) + cross(n, spin);
 
-  const Coefficients c =
-      uniform ? common : gather_coefficients(batch.coefficients, places);
+  const Coefficients c = uniform ? common : gather_coefficients(batch.coefficients, places);
   const Lanes f_n = c.k * overlap - c.eta * v_n;
   Vector force = f_n * n;
   Vector moment = {};
@@ -182,8 +183,8 @@ GASGRAIN_LANES_INLINE void loads_of_group(ContactBatch& batch, const int* places
 #pragma GCC unroll 8
   for (int lane = 0; lane < group_size; ++lane) {
     LoadRecord& i = ring.slots[first[lane] & ring.mask];
-    LoadRecord& j = ring.slots[second[lane] < ring.local_count ? second[lane] & ring.mask
-                                                               : ring.discarded];
+    LoadRecord& j =
+        ring.slots[second[lane] < ring.local_count ? second[lane] & ring.mask : ring.discarded];
     const Quad f = row(forces, lane);
     add(i.force, f);
     add(i.torque, row(torques_i, lane));
@@ -252,8 +253,8 @@ void integrate_block(IntegrationBatch& batch) {
         load_quad(grain.velocity) + ((grain.inverse_mass * kick) * force + gravity);
     store_quad(grain.velocity, velocity);
     store_quad(grain.position, load_quad(grain.position) + drift * velocity);
-    store_quad(spin.velocity, load_quad(spin.velocity) +
-                                  (spin.inverse_inertia * kick) * load_quad(load.torque));
+    store_quad(spin.velocity,
+               load_quad(spin.velocity) + (spin.inverse_inertia * kick) * load_quad(load.torque));
     store_quad(load.force, Quad{});
     store_quad(load.torque, Quad{});
     const Quad square = no_fourth * velocity * velocity;
@@ -277,7 +278,7 @@ void integrate(IntegrationBatch& batch) {
 #define GASGRAIN_KERNEL_NAME kernel_generic
 #endif
 extern const ContactKernel GASGRAIN_KERNEL_NAME;
-const ContactKernel GASGRAIN_KERNEL_NAME = {
-    "generic", near_pairs, touching_pairs, contact_loads, integrate};
+const ContactKernel GASGRAIN_KERNEL_NAME = {"generic", near_pairs, touching_pairs, contact_loads,
+                                            integrate};
 
 }  // namespace gasgrain::plugins

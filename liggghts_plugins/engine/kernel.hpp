@@ -35,9 +35,9 @@ struct ContactBatch {
   LoadRing ring;
   int* contacts;  // places in the list; may be written up to one group beyond the end
   int count;
-  int dummy;           // place in the list of a pair without effect, used as padding
-  double slip_time;    // s
-  double* largest;     // overlap (m) and overlap / sum of radii so far
+  int dummy;         // place in the list of a pair without effect, used as padding
+  double slip_time;  // s
+  double* largest;   // overlap (m) and overlap / sum of radii so far
 };
 
 struct IntegrationBatch {
@@ -46,10 +46,10 @@ struct IntegrationBatch {
   LoadRing ring;
   const double* held_forces;  // N, three per grain, or nullptr
   int begin, end;
-  double gravity[3];     // m/s^2
-  double kick;           // s, for velocities
-  double drift;          // s, for positions
-  double square_speed;   // largest so far, m^2/s^2; updated
+  double gravity[3];    // m/s^2
+  double kick;          // s, for velocities
+  double drift;         // s, for positions
+  double square_speed;  // largest so far, m^2/s^2; updated
 };
 
 struct ContactKernel {

@@ -88,8 +88,8 @@ GASGRAIN_LANES_INLINE unsigned bits(LaneMask mask) {
 // number of lanes set.
 GASGRAIN_LANES_INLINE int write_places(int* places, int begin, unsigned set) {
 #if defined(__AVX512VL__)
-  const __m256i all = _mm256_add_epi32(_mm256_set1_epi32(begin),
-                                       _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  const __m256i all =
+      _mm256_add_epi32(_mm256_set1_epi32(begin), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(places),
                       _mm256_maskz_compress_epi32(static_cast<__mmask8>(set), all));
   return __builtin_popcount(set);

@@ -55,11 +55,10 @@ constexpr int group_all = 0;
 constexpr int reneighbouring_hooks = hook::PRE_EXCHANGE | hook::PRE_NEIGHBOR;
 // Hooks that do not concern a time step: minimization, respa, energy of thermo output.
 constexpr int harmless_hooks = hook::THERMO_ENERGY | hook::MIN_PRE_EXCHANGE |
-                               hook::MIN_PRE_NEIGHBOR | hook::MIN_PRE_FORCE |
-                               hook::MIN_POST_FORCE | hook::MIN_ENERGY | hook::POST_RUN |
-                               hook::INITIAL_INTEGRATE_RESPA | hook::POST_INTEGRATE_RESPA |
-                               hook::PRE_FORCE_RESPA | hook::POST_FORCE_RESPA |
-                               hook::FINAL_INTEGRATE_RESPA;
+                               hook::MIN_PRE_NEIGHBOR | hook::MIN_PRE_FORCE | hook::MIN_POST_FORCE |
+                               hook::MIN_ENERGY | hook::POST_RUN | hook::INITIAL_INTEGRATE_RESPA |
+                               hook::POST_INTEGRATE_RESPA | hook::PRE_FORCE_RESPA |
+                               hook::POST_FORCE_RESPA | hook::FINAL_INTEGRATE_RESPA;
 // Styles known to do at reneighbouring nothing but move, insert or delete atoms and their values.
 constexpr std::array reneighbouring_styles = {"contacthistory", "property/atom", "insert/pack",
                                               "insert/rate/region"};
@@ -156,8 +155,7 @@ class Planner {
       const auto& sphere = static_cast<const FixNVESphere&>(fix);
       ++integrators_;
       if (fix.igroup != group_all) oppose(name + " of a group");
-      if (sphere.*private_member(SphereExtra()) != 0 ||
-          sphere.*private_member(SphereAddedMass()))
+      if (sphere.*private_member(SphereExtra()) != 0 || sphere.*private_member(SphereAddedMass()))
         oppose(name + " with options");
       return true;
     }
@@ -168,8 +166,8 @@ class Planner {
     return std::strcmp(fix.style, style) == 0;
   }
   int index_of(const Fix& fix) const {
-    return static_cast<int>(std::find(lmp_.modify->fix, lmp_.modify->fix + lmp_.modify->nfix, &fix) -
-                            lmp_.modify->fix);
+    return static_cast<int>(
+        std::find(lmp_.modify->fix, lmp_.modify->fix + lmp_.modify->nfix, &fix) - lmp_.modify->fix);
   }
 
   LAMMPS& lmp_;

@@ -22,14 +22,16 @@ struct ScenePlan {
   std::vector<std::string> obstacles;
 
   PairGranCgm* pair = nullptr;
-  std::vector<FixWallSdf*> walls;            // in the order of the script
-  std::vector<LAMMPS_NS::Fix*> gravity;      // their post_force() keeps their energy up to date
-  Vec3 acceleration = Vec3::Zero();          // m/s^2, sum of the above
-  HeldForceFix* held_force = nullptr;        // fix couple/gas
-  LAMMPS_NS::Fix* held_force_fix = nullptr;  // the same
+  std::vector<FixWallSdf*> walls;               // in the order of the script
+  std::vector<LAMMPS_NS::Fix*> gravity;         // their post_force() keeps their energy up to date
+  Vec3 acceleration = Vec3::Zero();             // m/s^2, sum of the above
+  HeldForceFix* held_force = nullptr;           // fix couple/gas
+  LAMMPS_NS::Fix* held_force_fix = nullptr;     // the same
   std::vector<LAMMPS_NS::Fix*> reneighbouring;  // fixes that ask for it at steps of their own
 
   bool fused() const { return obstacles.empty(); }
+  // Whether a pair style that the engine knows is in use at all.
+  bool concerns_engine() const { return pair != nullptr; }
   // One line for the user.
   std::string text() const;
 };

@@ -75,8 +75,7 @@ void WallContacts::add_contact(const DistanceSample& wall, int candidate, const 
       .lever_spin = lever * ConstColumn(batch.spins[i].velocity)};
   const ContactCoefficients c = wall_->contacts()(batch.types[i], wall_->wall_type())
                                     .first_against_fixed(1.0 / grain.inverse_mass);
-  const ContactForce f =
-      contact_force<tangential>(c, state, displacements_[candidate], batch.step);
+  const ContactForce f = contact_force<tangential>(c, state, displacements_[candidate], batch.step);
   LoadRecord& sum = batch.ring.slots[i & batch.ring.mask];
   Column(sum.force) += f.force;
   Column(sum.torque) += lever * f.moment;

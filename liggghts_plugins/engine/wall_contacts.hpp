@@ -46,10 +46,10 @@ class WallContacts {
   void add_contact(const DistanceSample& wall, int candidate, const WallBatch& batch);
 
   FixWallSdf* wall_;
-  std::vector<int> grains_;           // ascending
-  std::vector<int> block_begin_;      // per block, and the end
+  std::vector<int> grains_;            // ascending
+  std::vector<int> block_begin_;       // per block, and the end
   std::vector<double> touches_after_;  // m, `travelled` before which there is no contact
-  std::vector<Vec3> displacements_;   // m
+  std::vector<Vec3> displacements_;    // m
   FixWallSdf::Load load_;
 };
 
