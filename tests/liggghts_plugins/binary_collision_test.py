@@ -5,7 +5,7 @@ import unittest
 
 from liggghts_run import (Bench, Grain, STOCK_OPTIONS, cgm_properties, damping, data_file,
                           dump_command, largest_difference, preamble, sphere_mass,
-                          stock_properties)
+                          stock_properties, thermo)
 
 R0, DENSITY, K, E = 50e-6, 2500.0, 50.0, 0.9
 SPEED, STEP = 0.1, 2e-8
@@ -80,6 +80,29 @@ class BinaryCollision(unittest.TestCase):
                 self.assertAlmostEqual(force / (1.722e-5 * factors[1]), 1, delta=1e-3)
                 # the contact is sampled every 2e-7 s
                 self.assertAlmostEqual(duration, 1.137e-5 * factors[2], delta=3e-7)
+
+    def test_contact_forces_of_computes_equal_stock(self):
+        """compute pair/gran/local, and the virial (stress/atom)."""
+        more = ("compute c all pair/gran/local pos vel id force torque history\n"
+                "dump c all local 50 c.dump c_c[1] c_c[2] c_c[7] c_c[13] c_c[14] c_c[16] c_c[17] "
+                "c_c[18] c_c[19] c_c[20] c_c[21] c_c[22] c_c[23] c_c[24]\n"
+                "compute s all stress/atom\ncompute p all reduce sum c_s[1] c_s[2] c_s[4]\n"
+                "thermo_style custom step atoms ke c_p[1] c_p[2] c_p[3]\nthermo 50\n"
+                "thermo_modify format float %.12g norm no\nrun ")
+        bench = collision_bench(5.0, offset=1.2)
+        rows = []
+        for script in (stock(5.0), cgm(5.0)):
+            log = bench.run(script.replace("run ", more)).log
+            contacts = [[float(word) for word in line.split()]
+                        for line in (bench.directory / "c.dump").read_text().splitlines()
+                        if not line.startswith("ITEM")]
+            table = [1, 5, 2 * R0, 10 * R0, 2, 250]  # of the coarsegraining command
+            rows.append([row for row in thermo(log) + contacts if len(row) > 5 and row != table])
+        self.assertGreater(sum(len(row) == 14 for row in rows[0]), 5)  # contacts were listed
+        for expected, found in zip(*rows, strict=True):
+            for a, b in zip(expected, found, strict=True):
+                # dumps show six digits
+                self.assertAlmostEqual(a, b, delta=2e-5 * abs(a) + 1e-15)
 
     def test_unlike_ratios_conserve_momentum(self):
         gap = ((7 * R0)**2 - (2 * R0)**2)**0.5 + 1e-9
