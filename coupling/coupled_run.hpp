@@ -46,6 +46,8 @@ class CoupledRun {
   void continue_run();
   void force_applied(double dem_step);
   bool step_finished();
+  // Whether the next step_finished() will be true.
+  bool exchange_due() const { return steps_since_exchange_ + 1 >= interval_.dem_steps; }
   void exchange(std::span<Vec3> forces);
   void finish_run();
 

@@ -99,6 +99,10 @@ void FixCoupleGas::setup(int) {
 
 void FixCoupleGas::post_force(int) {
   add_held_forces();
+  held_forces_applied();
+}
+
+void FixCoupleGas::held_forces_applied() {
   run_->force_applied(update->dt);
 }
 

@@ -21,10 +21,14 @@ FixStyle(couple/gas,gasgrain::coupling::FixCoupleGas)
 
 #include "coupling/coupled_run.hpp"
 #include "coupling/shared/gas_force.hpp"
+#include "liggghts_plugins/engine/held_force.hpp"
 
 namespace gasgrain::coupling {
 
-class FixCoupleGas : public LAMMPS_NS::Fix, public GasForceSource, private DemHost {
+class FixCoupleGas : public LAMMPS_NS::Fix,
+                     public GasForceSource,
+                     public plugins::HeldForceFix,
+                     private DemHost {
  public:
   FixCoupleGas(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char** arguments);
   ~FixCoupleGas() override;
@@ -45,6 +49,9 @@ class FixCoupleGas : public LAMMPS_NS::Fix, public GasForceSource, private DemHo
   double memory_usage() override;
 
   GasForce gas_force(int local_index) const override;
+  const Vec3* held_forces() const override { return held_.data(); }
+  void held_forces_applied() override;
+  bool end_of_step_uses_atoms() const override { return run_->exchange_due(); }
 
  private:
   double step() const override;
