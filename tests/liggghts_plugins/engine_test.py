@@ -1,0 +1,310 @@
+"""The fused engine moves grains as LIGGGHTS's own loop does with the same script.
+
+Reference: the same executable with `gasgrain_engine off`, whose contact law and walls are tested
+against stock liggghts elsewhere. Differences are round-off and grow with time (collisions of many
+grains are chaotic); a wrong force, a lost contact history or a stale ghost shows as 1e-3 or more.
+"""
+
+import random
+import re
+import unittest
+
+import bed_of_grains as bed
+from liggghts_run import (Bench, Grain, cgm_properties, data_file, dump_command,
+                          largest_difference, preamble, thermo)
+
+SPEED = 0.5  # m/s
+RADIUS = bed.RADIUS
+SCALE = [2 * RADIUS] * 3 + [SPEED] * 3 + [SPEED / RADIUS] * 3
+UNWRAPPED = "xu yu zu vx vy vz omegax omegay omegaz"
+FORCES = "x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz"
+SIDE = 12.0 * RADIUS
+
+BOX = "".join(f'[[body]]\nname = "{name}"\nplane = {{point = {point}, normal = {normal}}}\n'
+              for name, point, normal in (
+                  ("west", [0, 0, 0], [1, 0, 0]), ("east", [2 * SIDE, 0, 0], [-1, 0, 0]),
+                  ("south", [0, 0, 0], [0, 1, 0]), ("north", [0, SIDE, 0], [0, -1, 0]),
+                  ("floor", [0, 0, 0], [0, 0, 1]), ("lid", [0, 0, 2 * SIDE], [0, 0, -1])))
+WALLS = "".join(f"fix {body} all wall/sdf case box.toml body {body} type 2\n"
+                for body in ("west", "east", "south", "north", "floor", "lid"))
+
+
+def crowd(types=1, radii=(RADIUS,), seed=1, pitch=2.02):
+    """About 1000 grains in 12 x 6 x 12 cells of a lattice, agitated and spinning."""
+    numbers = random.Random(seed)
+    made = []
+    spacing = [2 * SIDE / 12, SIDE / 6, 2 * SIDE / 12]
+    assert min(spacing) > 0.99 * pitch * max(radii)
+    for k in range(12):
+        for j in range(6):
+            for i in range(12):
+                place = tuple((n + 0.5) * h for n, h in zip((i, j, k), spacing))
+                kind = numbers.randrange(len(radii))
+                made.append(Grain(place, radii[kind],
+                                  tuple(numbers.gauss(0, SPEED) for _ in range(3)),
+                                  tuple(numbers.gauss(0, SPEED / RADIUS) for _ in range(3)),
+                                  type=1 + kind % types))
+    return made
+
+
+def files(grains, types=2):
+    return {"grains.data": data_file(grains, [0, 0, 0], [2 * SIDE, SIDE, 2 * SIDE], types),
+            "box.toml": BOX}
+
+
+def scene(boundary="f f f", tangential="history", walls=WALLS, properties=None, head="", l=1.0):
+    """Grains of k = 50 N/m at a tenth of their contact time per step."""
+    return (head + preamble("grains.data", skin=0.2 * RADIUS, l=l, boundary=boundary) +
+            (properties or cgm_properties(2, k=50.0, e=0.8, mu=0.4)) +
+            f"pair_style gran model cgm tangential {tangential}\npair_coeff * *\ntimestep 4e-6\n"
+            "fix gravity all gravity 9.81 vector 0 0 -1\nfix integrate all nve/sphere\n" + walls)
+
+
+def thermo_of(columns):
+    return (f"thermo_style custom step atoms ke {columns}\nthermo 100\n"
+            "thermo_modify format float %.17g norm no lost error\n")
+
+
+class EngineTest(unittest.TestCase):
+    def off_and_fused(self, scene_text, rest, scene_files, ranks=1, mode="fused"):
+        reference, fused = Bench(scene_files), Bench(scene_files)
+        reference.run("gasgrain_engine off\n" + scene_text + rest)
+        run = fused.run(f"gasgrain_engine {mode}\n" + scene_text + rest, ranks=ranks)
+        self.assertIn("Engine: fused", run.text)
+        return reference, fused, run
+
+    def assert_same_motion(self, reference, fused, limits=((300, 1e-10), (1000, 1e-8)), every=100):
+        frames, others = reference.frames("d.dump"), fused.frames("d.dump")
+        self.assertEqual(len(frames), len(others))
+        for step, limit in limits:
+            until = step // every + 1
+            self.assertLessEqual(until, len(frames))
+            self.assertLess(largest_difference(others[:until], frames[:until], SCALE), limit)
+        return frames
+
+
+class SameMotion(EngineTest):
+    def check(self, scene_text, scene_files, ranks=1, rest=None, limits=((300, 1e-10), (1000, 1e-8))):
+        rest = rest or dump_command("d", 100) + "run 1000\n"
+        reference, fused, _ = self.off_and_fused(scene_text, rest, scene_files, ranks)
+        return self.assert_same_motion(reference, fused, limits)
+
+    def test_two_grains(self):
+        grains = [Grain((SIDE, SIDE / 2, SIDE), RADIUS, (0.3, 0.1, 0), (50, -30, 20)),
+                  Grain((SIDE + 2.1 * RADIUS, SIDE / 2 + 0.4 * RADIUS, SIDE), RADIUS,
+                        (-0.3, 0, 0), (0, 80, -60))]
+        frames = self.check(scene(), files(grains), limits=((1000, 1e-12),))
+        self.assertGreater(frames[-1][2][3], 0.05)  # they have collided
+
+    def test_agitated_crowd_between_sdf_walls(self):
+        self.check(scene(), files(crowd()))
+
+    def test_without_friction(self):
+        self.check(scene(tangential="off"), files(crowd()))
+
+    def test_without_history(self):
+        self.check(scene(tangential="no_history"), files(crowd()))
+
+    def test_two_types_of_different_ratio_and_size(self):
+        properties = cgm_properties(3, k=50.0, e=0.8, mu=0.4)
+        for name, values in (("cgmSpringConstant", "50 40 45 40 30 35 45 35 60"),
+                             ("coefficientRestitution", ".8 .7 .9 .7 .6 .8 .9 .8 .5"),
+                             ("cgmTangentialStiffnessRatio", ".8 1 1 1 .7 1 1 1 .9")):
+            properties = re.sub(rf"fix {name} .*\n", "", properties)
+            properties += f"fix {name} all property/global {name} peratomtypepair 3 {values}\n"
+        walls = WALLS.replace("type 2", "type 3")
+        for exponent in (3, 2):
+            with self.subTest(exponent=exponent):
+                text = scene(properties=properties, walls=walls, l=2.0).replace(
+                    "tangential history", f"tangential history stiffness_exponent {exponent}")
+                text = text.replace("coarsegraining 2 ", "coarsegraining 2 1.5 1 ")
+                self.check(text, files(crowd(types=2, radii=(RADIUS, 0.8 * RADIUS)), types=3))
+
+    def test_many_sizes(self):
+        radii = tuple(RADIUS * (0.7 + 0.3 * n / 9) for n in range(10))
+        self.check(scene(), files(crowd(radii=radii)))
+
+    def test_periodic_box(self):
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                # grains are wrapped at reneighbourings, which the engine chooses itself
+                self.check(scene(boundary="p p p", walls=""), files(crowd()), ranks,
+                           dump_command("d", 100, UNWRAPPED) + "run 1000\n")
+
+    def test_ranks(self):
+        for ranks in (2, 4):
+            with self.subTest(ranks=ranks):
+                walls = "".join(line + "\n" for line in WALLS.splitlines()
+                                if "south" not in line and "north" not in line)
+                self.check(scene(boundary="f p f", walls=walls), files(crowd()), ranks,
+                           dump_command("d", 100, UNWRAPPED) + "run 1000\n")
+
+    def test_wall_loads(self):
+        """Force, torque, contacts and overlap of walls, in every line of output."""
+        bodies = ("floor", "sides", "tube")
+        reference, fused, _ = self.off_and_fused(
+            bed.start(), bed.LOADS.replace("thermo 500", "thermo 10") + "run 1000\n", bed.FILES)
+        rows = [row for row in thermo(reference_log(reference)) if len(row) == 18]
+        others = [row for row in thermo(reference_log(fused)) if len(row) == 18]
+        self.assertEqual(len(rows), 101)
+        self.assertGreater(max(row[9] for row in rows), 5)
+        self.assertEqual(len(bodies), 3)
+        for column in range(18):
+            unit = max(abs(row[column]) for row in rows) or 1.0
+            for row, other in zip(rows, others, strict=True):
+                self.assertLess(abs(row[column] - other[column]) / unit, 1e-7, (column, row[0]))
+
+
+def reference_log(bench):
+    return (bench.directory / "log.txt").read_text()
+
+
+class HandingOver(EngineTest):
+    def test_two_runs_and_back_to_the_stock_loop(self):
+        """Contact histories are whole wherever the engine hands back, with `pre no` too."""
+        reference, fused = Bench(files(crowd())), Bench(files(crowd()))
+        dump = dump_command("d", 100, FORCES)
+        runs = "run 300\nrun 200 pre no\n{}run 200\n{}run 200\nrun 100 pre no\n"
+        reference.run("gasgrain_engine off\n" + scene() + dump + runs.format("", ""))
+        fused.run("gasgrain_engine fused\n" + scene() + dump +
+                  runs.format("gasgrain_engine off\n", "gasgrain_engine fused\n"))
+        frames, others = reference.frames("d.dump"), fused.frames("d.dump")
+        self.assertGreaterEqual(len(frames), 11)
+        force = max(abs(value) for frame in frames for grain in frame.values()
+                    for value in grain[9:12])
+        scale = SCALE + [force] * 3 + [force * RADIUS] * 3
+        self.assertEqual(len(frames), len(others))
+        self.assertLess(largest_difference(others, frames, scale), 1e-8)
+
+    def test_steps_with_pressure(self):
+        """Pressure needs the stock pair style in those steps; before and after them we are fused."""
+        rest = ("compute p all pressure thermo_temp virial\n" + thermo_of("c_p") + dump_command("d", 50) + "run 500\n")
+        reference, fused, _ = self.off_and_fused(scene(), rest, files(crowd()))
+        self.assert_same_motion(reference, fused, ((300, 1e-10), (500, 1e-9)), every=50)
+        rows = [row for row in thermo(reference_log(reference)) if len(row) == 4]
+        others = [row for row in thermo(reference_log(fused)) if len(row) == 4]
+        self.assertEqual(len(rows), 6)
+        self.assertGreater(abs(rows[-1][3]), 0)
+        for row, other in zip(rows, others, strict=True):
+            self.assertLess(abs(row[3] - other[3]), 1e-7 * abs(rows[-1][3]))
+
+    def test_averages_of_fixes(self):
+        """fix ave/time samples the ends of steps, more often than output does."""
+        rest = ("compute er all erotate/sphere\ncompute k all ke\n"
+                "fix a all ave/time 10 5 50 c_er c_k f_floor[3] file a.txt\n"
+                "run 500\n")
+        reference, fused, _ = self.off_and_fused(scene(), rest, files(crowd()))
+        values = [[[float(word) for word in line.split()]
+                   for line in (bench.directory / "a.txt").read_text().splitlines()
+                   if not line.startswith("#")] for bench in (reference, fused)]
+        self.assertEqual(len(values[0]), 10)
+        for row, other in zip(*values, strict=True):
+            for a, b in zip(row, other, strict=True):
+                self.assertLess(abs(a - b), 2e-5 * abs(a) + 1e-12)
+
+    def test_restart(self):
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                whole = Bench(files(crowd()))
+                start = "gasgrain_engine fused\n" + scene()
+                dump = dump_command("d", 100)
+                whole.run(start + dump + "run 400\nwrite_restart r.restart\nrun 300\n", ranks=ranks)
+                expected = whole.frames("d.dump")[-1]
+                again = start.replace("read_data grains.data", "read_restart r.restart")
+                whole.run(again + dump + "run 300\n", ranks=ranks)
+                self.assertLess(
+                    largest_difference([whole.frames("d.dump")[-1]], [expected], SCALE), 1e-9)
+
+    def test_periodic_restart_files_do_not_disturb(self):
+        reference, fused, _ = self.off_and_fused(
+            scene(), "restart 150 r.*.restart\n" + dump_command("d", 100) + "run 600\n",
+            files(crowd()))
+        self.assert_same_motion(reference, fused, ((300, 1e-10), (600, 1e-9)))
+        self.assertTrue((fused.directory / "r.450.restart").exists())
+
+
+INSERTION = """
+region factory block {lo} {hi} {lo} {hy} {mid} {hi} units box
+fix template all particletemplate/sphere 15485863 atom_type 1 density constant 2500 &
+    radius constant {radius}
+fix mixture all particledistribution/discrete 32452843 1 template 1.0
+fix insert all insert/pack seed 86028121 distributiontemplate mixture vel constant 0. 0. -0.5 &
+    insert_every 200 overlapcheck yes all_in yes particles_in_region 40 region factory
+""".format(lo=1e-4, hi=2 * SIDE - 1e-4, hy=SIDE - 1e-4, mid=1.4 * SIDE, radius=RADIUS)
+
+
+class Insertion(EngineTest):
+    def test_grains_come_while_the_engine_runs(self):
+        grains = [grain for grain in crowd() if grain.position[2] < SIDE]
+        reference, fused, run = self.off_and_fused(
+            scene(), INSERTION + dump_command("d", 100) + "run 700\n", files(grains))
+        frames = self.assert_same_motion(reference, fused, ((300, 1e-10), (700, 1e-8)))
+        self.assertGreater(len(frames[-1]), len(grains) + 30)
+        self.assertIn("Engine: fused", run.text)
+
+    def test_from_an_empty_box(self):
+        reference, fused, _ = self.off_and_fused(
+            scene().replace("read_data grains.data",
+                            f"region r block 0 {2 * SIDE} 0 {SIDE} 0 {2 * SIDE} units box\n"
+                            "create_box 2 r"),
+            INSERTION + dump_command("d", 100) + "run 700\n", files([]))
+        frames = self.assert_same_motion(reference, fused, ((300, 1e-10), (700, 1e-8)))
+        self.assertGreater(len(frames[-1]), 30)
+
+
+class Plan(EngineTest):
+    def run_mode(self, mode, commands, check=True):
+        bench = Bench(files(crowd()))
+        return bench, bench.run(f"gasgrain_engine {mode}\n" + scene() + commands +
+                                dump_command("d", 100) + "run 200\n", check=check)
+
+    OBSTACLES = {
+        "fix freeze": "group some id 1:100\nfix frozen some freeze\n",
+        "fix drag viscous": "fix drag all viscous 1e-6\n",
+        "fix every ave/time": "fix every all ave/time 1 1 100 f_floor[3] file t.txt\n",
+        "fix mesh wall/gran": "fix mesh all wall/gran model cgm tangential history primitive "
+                              "type 2 zplane 0.0001\n",
+        "compute pair/gran/local": "compute c all pair/gran/local id force\n"
+                                   "dump l all local 100 l.dump c_c[1]\n",
+    }
+
+    def test_what_is_not_understood_runs_in_the_stock_loop_and_is_named(self):
+        for name, commands in self.OBSTACLES.items():
+            with self.subTest(name):
+                reference, _ = self.run_mode("off", commands)
+                bench, run = self.run_mode("auto", commands)
+                self.assertRegex(run.text, "Engine: stock time integration.*" + name)
+                self.assertEqual(bench.frames("d.dump"), reference.frames("d.dump"))
+
+    def test_fused_refuses_what_it_does_not_understand(self):
+        for name, commands in self.OBSTACLES.items():
+            with self.subTest(name):
+                _, run = self.run_mode("fused", commands, check=False)
+                self.assertNotEqual(run.code, 0)
+                self.assertRegex(run.text, "gasgrain_engine fused: .*" + name)
+
+    def test_unknown_mode(self):
+        _, run = self.run_mode("on", "", check=False)
+        self.assertNotEqual(run.code, 0)
+        self.assertIn("off, auto, fused", run.text)
+
+    def test_run_style_keeps_the_engine(self):
+        _, run = self.run_mode("auto", "run_style verlet\n")
+        self.assertIn("Engine: fused", run.text)
+
+
+class SameBits(EngineTest):
+    def test_repeated_runs_are_identical(self):
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                dumps = []
+                for _ in range(2):
+                    bench = Bench(files(crowd()))
+                    bench.run("gasgrain_engine fused\n" + scene() + dump_command("d", 100, FORCES) +
+                              "run 500\n", ranks=ranks)
+                    dumps.append((bench.directory / "d.dump").read_text())
+                self.assertEqual(*dumps)
+
+
+if __name__ == "__main__":
+    unittest.main()
