@@ -3,7 +3,7 @@
 
 #include "coupling/shared/coarse_grain_scaling.hpp"
 
-namespace LAMMPS_NS {
+namespace LAMMPS_NS {  // NOLINT(readability-identifier-naming): the name of LIGGGHTS
 class LAMMPS;
 }
 

@@ -6,7 +6,7 @@
 
 #include "coupling/shared/vec3.hpp"
 
-namespace LAMMPS_NS {
+namespace LAMMPS_NS {  // NOLINT(readability-identifier-naming): the name of LIGGGHTS
 class LAMMPS;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace LAMMPS_NS {
+namespace LAMMPS_NS {  // NOLINT(readability-identifier-naming): the name of LIGGGHTS
 class LAMMPS;
 class Fix;
 }  // namespace LAMMPS_NS
