@@ -1,0 +1,171 @@
+// Laminar flows with known solutions: observed order over three grids and errors against bounds.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/cfd/gas_fixture.hpp"
+
+namespace gasgrain::cfd {
+namespace {
+
+using testing::bodies;
+using testing::box_case;
+using testing::set_sides;
+using testing::side;
+
+double order(double coarse, double fine) {
+  return std::log2(coarse / fine);
+}
+
+// Advances at the largest stable step times `factor` until `time`.
+void run_until(GasSolver& solver, double time, double factor = 1.0) {
+  while (solver.time() < time * (1.0 - 1e-12)) {
+    solver.advance(std::min(factor * solver.largest_stable_step(), time - solver.time()));
+  }
+}
+
+// Channel of height 1 between z_lower and z_upper, driven by gravity along x; flow rate over the
+// exact 1/12 g H^3/nu, minus one.
+double grid_wall_error(int cells) {
+  GasCase c = box_case(Vec3(1, 1, 1), {1, 1, cells});
+  c.gas.gravity = Vec3(1, 0, 0);
+  set_sides(c, 0, BoundaryType::periodic);
+  set_sides(c, 1, BoundaryType::slip);
+  GasSolver solver(c, MPI_COMM_WORLD);
+  run_until(solver, 1.0);  // exp(-pi^2) = 5e-5 from the steady state
+  return 12.0 * solver.side_flux(0, 0) - 1.0;
+}
+
+TEST(Poiseuille, flow_rate_between_grid_walls_is_second_order) {
+  const double e8 = grid_wall_error(8), e16 = grid_wall_error(16), e32 = grid_wall_error(32);
+  EXPECT_NEAR(order(e8, e16), 2.0, 0.05);
+  EXPECT_NEAR(order(e16, e32), 2.0, 0.05);
+  EXPECT_LT(std::abs(e32), 0.003);
+}
+
+// Positions of the two walls within their cells, in [0, 1).
+struct Offsets {
+  double lower, upper;
+};
+
+// Evenly scattered pairs (the additive sequence of the plastic number).
+Offsets scattered(int n) {
+  return {std::fmod(0.5 + 0.7548776662466927 * n, 1.0),
+          std::fmod(0.5 + 0.5698402909980532 * n, 1.0)};
+}
+
+// The channel between two plane bodies about `cells` cells apart, both off the grid lines. Starts
+// from the exact profile and runs until 99 % of its change to the discrete one is done.
+double body_wall_error(int cells, const Offsets& offsets) {
+  const double h = 1.0 / cells, lower = (2.0 + offsets.lower) * h;
+  const double height = 1.0 + (offsets.upper - offsets.lower) * h;
+  GasCase c = box_case(Vec3(h, h, 1.0 + 5.0 * h), {1, 1, cells + 5});
+  c.gas.gravity = Vec3(1, 0, 0);
+  set_sides(c, 0, BoundaryType::periodic);
+  set_sides(c, 1, BoundaryType::slip);
+  c.bodies = bodies("[[body]]\nname='lower'\nplane={point=[0,0," + std::to_string(lower) +
+                    "],normal=[0,0,1]}\n[[body]]\nname='upper'\nplane={point=[0,0," +
+                    std::to_string(lower + height) + "],normal=[0,0,-1]}\n");
+  GasSolver solver(c, MPI_COMM_WORLD);
+  solver.set_velocity([&](const Vec3& x) {
+    const double z = x[2] - lower;
+    return Vec3(std::max(0.5 * z * (height - z), 0.0), 0, 0);
+  });
+  run_until(solver, 0.5);
+  double flow = 0.0;  // integral of the velocity over the faces
+  for_each_cell(solver.pressure().size(),
+                [&](int i, int j, int k) { flow += h * solver.velocity()[0](i, j, k); });
+  flow = sum_over_ranks(solver.decomposition(), flow);
+  return 12.0 * flow / (height * height * height) - 1.0;
+}
+
+struct ErrorOverOffsets {
+  double mean = 0.0, worst = 0.0;
+};
+
+ErrorOverOffsets body_wall_errors(int cells, int offsets) {
+  ErrorOverOffsets result;
+  for (int n = 0; n < offsets; ++n) {
+    const double error = std::abs(body_wall_error(cells, scattered(n)));
+    result.mean += error / offsets;
+    result.worst = std::max(result.worst, error);
+  }
+  return result;
+}
+
+TEST(Poiseuille, body_walls_off_the_grid_lines_keep_the_flow_rate) {
+  const ErrorOverOffsets e = body_wall_errors(16, 40);
+  RecordProperty("mean", std::to_string(e.mean));
+  RecordProperty("worst", std::to_string(e.worst));
+  EXPECT_LT(e.mean, 0.03);
+  EXPECT_LT(e.worst, 0.06);
+}
+
+TEST(Poiseuille, body_walls_off_the_grid_lines_are_second_order) {
+  const double e8 = body_wall_errors(8, 8).mean, e16 = body_wall_errors(16, 8).mean,
+               e32 = body_wall_errors(32, 8).mean;
+  EXPECT_GT(order(e8, e16), 1.8) << e8 << " " << e16;
+  EXPECT_GT(order(e16, e32), 1.8) << e16 << " " << e32;
+}
+
+struct Vortices {
+  double energy_error;    // kinetic energy over the exact one, minus one
+  double velocity_error;  // root mean square of u_x, m/s
+};
+
+// Taylor-Green vortices of unit wavenumber; energy decays as exp(-4 nu t).
+Vortices taylor_green(int cells, Convection convection) {
+  const double length = 2.0 * std::numbers::pi, nu = 0.05, time = 1.0;
+  GasCase c = box_case(Vec3(length, length / cells, length), {cells, 1, cells});
+  c.gas.viscosity = nu;
+  c.numerics.convection = convection;
+  c.numerics.pressure_tolerance = 1e-8;
+  set_sides(c, 0, BoundaryType::periodic);
+  set_sides(c, 1, BoundaryType::slip);
+  set_sides(c, 2, BoundaryType::periodic);
+  const auto exact = [&](const Vec3& x, double t) {
+    const double f = std::exp(-2.0 * nu * t);
+    return Vec3(f * std::sin(x[0]) * std::cos(x[2]), 0.0, -f * std::cos(x[0]) * std::sin(x[2]));
+  };
+  GasSolver solver(c, MPI_COMM_WORLD);
+  solver.set_velocity([&](const Vec3& x) { return exact(x, 0.0); });
+  const int steps = 3 * cells / 2;
+  for (int n = 0; n < steps; ++n) solver.advance(time / steps);
+  const double h = length / cells;
+  std::vector<double> sums(3, 0.0);  // energy, exact energy, squared error
+  for_each_cell(solver.pressure().size(), [&](int i, int j, int k) {
+    const Vec3 x = testing::cell_centre(solver.decomposition(), i, j, k);
+    const Vec3 u = exact(x - 0.5 * h * Vec3::UnitX(), time),
+               w = exact(x - 0.5 * h * Vec3::UnitZ(), time);
+    const double a = solver.velocity()[0](i, j, k), b = solver.velocity()[2](i, j, k);
+    sums[0] += a * a + b * b;
+    sums[1] += u[0] * u[0] + w[2] * w[2];
+    sums[2] += (a - u[0]) * (a - u[0]) / (cells * cells);
+  });
+  sum_over_ranks(solver.decomposition(), sums);
+  return {sums[0] / sums[1] - 1.0, std::sqrt(sums[2])};
+}
+
+TEST(TaylorGreen, central_convection_is_second_order) {
+  const Vortices a = taylor_green(16, Convection::central),
+                 b = taylor_green(32, Convection::central),
+                 d = taylor_green(64, Convection::central);
+  EXPECT_GT(order(a.velocity_error, b.velocity_error), 1.9);
+  EXPECT_GT(order(b.velocity_error, d.velocity_error), 1.9);
+  EXPECT_GT(order(std::abs(a.energy_error), std::abs(d.energy_error)) / 2.0, 1.8)
+      << a.energy_error << " " << b.energy_error << " " << d.energy_error;
+  EXPECT_LT(std::abs(d.energy_error), 1e-3);
+}
+
+TEST(TaylorGreen, van_leer_convection_converges) {
+  const Vortices a = taylor_green(16, Convection::van_leer),
+                 b = taylor_green(32, Convection::van_leer),
+                 d = taylor_green(64, Convection::van_leer);
+  EXPECT_GT(order(a.velocity_error, b.velocity_error), 1.5);
+  EXPECT_GT(order(b.velocity_error, d.velocity_error), 1.5);
+  EXPECT_LT(std::abs(d.energy_error), 5e-3);
+}
+
+}  // namespace
+}  // namespace gasgrain::cfd
