@@ -9,6 +9,7 @@
 
 #include "coupling/shared/error.hpp"
 #include "liggghts_plugins/engine/fused_verlet.hpp"
+#include "liggghts_plugins/engine/kernel.hpp"
 
 namespace gasgrain::plugins {
 
@@ -18,7 +19,8 @@ EngineMode& engine_mode(LAMMPS_NS::LAMMPS& lmp) {
 }
 
 void set_engine_mode(LAMMPS_NS::LAMMPS* lmp, int argument_count, char** arguments) {
-  const std::string mode = argument_count == 1 ? arguments[0] : "";
+  const bool with_kernel = argument_count == 3 && std::strcmp(arguments[1], "kernel") == 0;
+  const std::string mode = argument_count == 1 || with_kernel ? arguments[0] : "";
   if (mode == "off")
     engine_mode(*lmp) = EngineMode::off;
   else if (mode == "auto")
@@ -26,8 +28,10 @@ void set_engine_mode(LAMMPS_NS::LAMMPS* lmp, int argument_count, char** argument
   else if (mode == "fused")
     engine_mode(*lmp) = EngineMode::fused;
   else
-    throw UserError("gasgrain_engine: expects one of off, auto, fused" +
-                    (mode.empty() ? "" : ", not '" + mode + "'"));
+    throw UserError("gasgrain_engine: expects off, auto or fused" +
+                    (mode.empty() ? "" : ", not '" + mode + "'") +
+                    "; then, if wanted, kernel avx512|avx2|generic");
+  if (with_kernel) choose_contact_kernel(arguments[2]);
 }
 
 void install_engine(LAMMPS_NS::LAMMPS& lmp) {

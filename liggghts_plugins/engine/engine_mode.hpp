@@ -1,4 +1,5 @@
-// The command `gasgrain_engine off|auto|fused` and the installation of the fused time integrator.
+// The command `gasgrain_engine off|auto|fused [kernel avx512|avx2|generic]` and the installation of
+// the fused time integrator.
 #pragma once
 
 namespace LAMMPS_NS {

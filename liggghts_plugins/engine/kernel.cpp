@@ -143,9 +143,9 @@ GASGRAIN_LANES_INLINE void loads_of_group(ContactBatch& batch, const int* places
   const Vector n = (1.0 / distance) * delta;
   const Lanes radii = place_i.d + place_j.d;
   const Lanes overlap = valid ? radii - distance : all_lanes(0.0);
-  const Lanes relative = overlap / radii;
   largest_overlap = overlap > largest_overlap ? overlap : largest_overlap;
-  largest_relative = relative > largest_relative ? relative : largest_relative;
+  const LaneMask record = overlap > largest_relative * radii;
+  if (bits(record)) largest_relative = record ? overlap / radii : largest_relative;
 
   const Vector v = vector_of(gather(batch.grains, first, velocity_quad)) -
                    vector_of(gather(batch.grains, second, velocity_quad));
@@ -274,11 +274,13 @@ void integrate(IntegrationBatch& batch) {
 
 }  // namespace
 
-#ifndef GASGRAIN_KERNEL_NAME
-#define GASGRAIN_KERNEL_NAME kernel_generic
+// Files that compile this one for a certain processor set both; see kernel_avx512.cpp.
+#ifndef GASGRAIN_KERNEL
+#define GASGRAIN_KERNEL kernel_generic
+#define GASGRAIN_KERNEL_NAME "generic"
 #endif
-extern const ContactKernel GASGRAIN_KERNEL_NAME;
-const ContactKernel GASGRAIN_KERNEL_NAME = {"generic", near_pairs, touching_pairs, contact_loads,
-                                            integrate};
+extern const ContactKernel GASGRAIN_KERNEL;
+const ContactKernel GASGRAIN_KERNEL = {GASGRAIN_KERNEL_NAME, near_pairs, touching_pairs,
+                                       contact_loads, integrate};
 
 }  // namespace gasgrain::plugins

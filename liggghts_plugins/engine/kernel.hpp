@@ -4,6 +4,8 @@
 // agree within round-off, and are the same bits in every run on the same machine.
 #pragma once
 
+#include <string>
+
 #include "liggghts_plugins/contact_settings.hpp"
 #include "liggghts_plugins/engine/records.hpp"
 
@@ -68,6 +70,9 @@ struct ContactKernel {
   void (*integrate)(IntegrationBatch&);
 };
 
+// The best one for this processor, unless another one was chosen.
 const ContactKernel& contact_kernel();
+// By name; throws UserError that lists those this processor can run.
+void choose_contact_kernel(const std::string& name);
 
 }  // namespace gasgrain::plugins
