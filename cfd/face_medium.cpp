@@ -24,12 +24,28 @@ struct Weights {
 
 Weights weights_of(const GasDomain& domain, int d, std::ptrdiff_t n) {
   const std::ptrdiff_t below = n - domain.open_share.stride(d);
-  return {domain.walls.upper_share[d][below] * domain.open_share[below],
-          domain.walls.lower_share[d][n] * domain.open_share[n]};
+  return {domain.walls.upper_share[d][below] * domain.joint_share[d][below],
+          domain.walls.lower_share[d][n] * domain.joint_share[d][n]};
+}
+
+// The cells' values with those of lenders joined to their hosts', weighted by open volume. Without
+// lenders it is `cells` itself; otherwise `joined` holds the result.
+const Field& join_lenders(Field& joined, const GasDomain& domain, int d, const Field& cells) {
+  if (domain.lenders[d].empty()) return cells;
+  joined = cells;
+  const Field &own = domain.open_share, &joint = domain.joint_share[d];
+  for (const Lender& lender : domain.lenders[d]) {  // a host of several is set to the same again
+    joined[lender.host] = cells[lender.host] * own[lender.host] / joint[lender.host];
+  }
+  for (const Lender& lender : domain.lenders[d]) {
+    joined[lender.host] += cells[lender.cell] * own[lender.cell] / joint[lender.host];
+  }
+  return joined;
 }
 
 void update_void_fraction(FaceMedium& medium, const GasDomain& domain, int d) {
-  const Field& cells = medium.cell_void_fraction;
+  Field joined;
+  const Field& cells = join_lenders(joined, domain, d, medium.cell_void_fraction);
   const Index3& size = domain.size();
   IndexBox box{{-halo, -halo, -halo}, {size[0] + halo, size[1] + halo, size[2] + halo}};
   box.begin[d] += 1;  // the lowest ghost face has only one cell
@@ -45,8 +61,9 @@ void update_void_fraction(FaceMedium& medium, const GasDomain& domain, int d) {
 }
 
 void update_drag(FaceMedium& medium, const GasDomain& domain, const GrainPhase& grains, int d) {
-  const Field& b = grains.momentum_exchange;
-  const Field& bv = grains.exchange_momentum[d];
+  Field joined_b, joined_bv;
+  const Field& b = join_lenders(joined_b, domain, d, grains.momentum_exchange);
+  const Field& bv = join_lenders(joined_bv, domain, d, grains.exchange_momentum[d]);
   for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
     const std::ptrdiff_t n = b.index(i, j, k), below = n - b.stride(d);
     const Weights w = weights_of(domain, d, n);
@@ -98,6 +115,7 @@ void update(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains) {
     update_void_fraction(medium, domain, d);
     update_drag(medium, domain, grains, d);
   }
+  if (domain.any_lenders) fill_ghosts(domain.decomposition, medium.void_fraction);
 }
 
 }  // namespace gasgrain::cfd

@@ -16,10 +16,30 @@ Field control_volumes(const GasDomain& domain, int d) {
   Field volume(domain.size());
   for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
     const std::ptrdiff_t n = volume.index(i, j, k), below = n - volume.stride(d);
-    volume[n] = domain.cell_volume() * (walls.lower_share[d][n] * domain.open_share[n] +
-                                        walls.upper_share[d][below] * domain.open_share[below]);
+    volume[n] = domain.cell_volume() * (walls.lower_share[d][n] * domain.joint_share[d][n] +
+                                        walls.upper_share[d][below] * domain.joint_share[d][below]);
   });
   return volume;
+}
+
+// Lenders whose host is an owned cell or a first ghost, in the order of their local indices.
+std::vector<Lender> lenders_of(const GasDomain& domain, int d) {
+  std::vector<Lender> lenders;
+  const Field& code = domain.walls.host[d];
+  const Index3& size = domain.size();
+  const IndexBox hosts{{-1, -1, -1}, {size[0] + 1, size[1] + 1, size[2] + 1}};
+  for_each_in({{-halo, -halo, -halo}, {size[0] + halo, size[1] + halo, size[2] + halo}},
+              [&](int i, int j, int k) {
+                const int n = static_cast<int>(code(i, j, k)) - 1;
+                if (n < 0) return;
+                Index3 host{i, j, k};
+                host[n / 2] += n % 2 == 0 ? -1 : 1;
+                for (int e = 0; e < 3; ++e) {
+                  if (host[e] < hosts.begin[e] || host[e] >= hosts.end[e]) return;
+                }
+                lenders.push_back({code.index(i, j, k), code.index(host[0], host[1], host[2])});
+              });
+  return lenders;
 }
 
 }  // namespace
@@ -33,6 +53,13 @@ GasDomain::GasDomain(const GasCase& gas_case, MPI_Comm communicator)
       spacing(gas_case.grid.spacing()),
       open_share(size()) {
   for (std::size_t n = 0; n < open_share.count(); ++n) open_share[n] = 1 - walls.wall_fraction[n];
+  for (int d = 0; d < 3; ++d) {
+    lenders[d] = lenders_of(*this, d);
+    any_lenders = any_lenders || !lenders[d].empty();
+    joint_share[d] = open_share;
+    for (const Lender& lender : lenders[d]) joint_share[d][lender.host] += open_share[lender.cell];
+  }
+  any_lenders = max_over_ranks(decomposition, any_lenders ? 1.0 : 0.0) > 0.0;
   for (int d = 0; d < 3; ++d) {
     control_volume[d] = control_volumes(*this, d);
     double sum = 0.0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "cfd/boundary.hpp"
 #include "cfd/field.hpp"
@@ -11,6 +12,11 @@
 #include "cfd/wall_geometry.hpp"
 
 namespace gasgrain::cfd {
+
+// A cell that lends its gas and grains to another one, as local indices: see WallGeometry::host.
+struct Lender {
+  std::ptrdiff_t cell, host;
+};
 
 struct GasDomain {
   GasDomain(const GasCase& gas_case, MPI_Comm communicator);
@@ -24,6 +30,9 @@ struct GasDomain {
   std::array<bool, 3> varies;  // something can change along direction d
   VectorField control_volume;  // of faces, m^3: sum of the shares of its cells, 0 where fixed
   Field open_share;            // cells: 1 - alpha
+  std::array<std::vector<Lender>, 3> lenders;  // with hosts among owned cells and first ghosts
+  bool any_lenders = false;                    // on some rank
+  VectorField joint_share;                     // cells: 1 - alpha with that of their lenders
 
   const Index3& size() const { return decomposition.block().size; }
   double face_area(int d) const { return spacing.prod() / spacing[d]; }

@@ -259,6 +259,15 @@ void GasSolver::sample_at_cells(VectorField& velocity, VectorField& pressure_gra
   }
   fill_ghosts(domain.decomposition, velocity);
   fill_ghosts(domain.decomposition, pressure_gradient);
+  if (!domain.any_lenders) return;
+  for (int d = 0; d < 3; ++d) {
+    for (const Lender& lender : domain.lenders[d]) {
+      velocity[d][lender.cell] = velocity[d][lender.host];
+      pressure_gradient[d][lender.cell] = pressure_gradient[d][lender.host];
+    }
+  }
+  fill_ghosts(domain.decomposition, velocity);
+  fill_ghosts(domain.decomposition, pressure_gradient);
 }
 
 double GasSolver::side_pressure(int direction, int side) const {

@@ -42,7 +42,7 @@ class Projection {
   void set_right_hand_side(const FaceMedium& medium, const Field& old_void_fraction,
                            const VectorField& velocity, double dt);
   void add_outlets();
-  double remove_means();
+  double remove_means(double dt);
   void remove_pressure_means(Field& pressure) const;
   void check(const PressureReport& report, const Field& pressure) const;
   void set_gradient(const Field& pressure);

@@ -44,6 +44,7 @@ class GeometryBuilder {
     close_faces_of_solid_cells();
     share_faces();
     fill_all_ghosts();
+    choose_hosts();
     return std::move(walls_);
   }
 
@@ -56,6 +57,7 @@ class GeometryBuilder {
   void solidify_unresolved_cells();
   void share_faces();
   void fill_all_ghosts();
+  void choose_hosts();
 
   Vec3 cell_centre(int i, int j, int k) const {
     const Index3& lower = decomposition_.block().lower;
@@ -98,7 +100,7 @@ void GeometryBuilder::allocate() {
     walls_.distance[d] = Field(size_, (grid.upper - grid.lower).norm());
     walls_.wall_velocity[d] = Field(size_);
     for (Field& component : walls_.normal[d]) component = Field(size_);
-    walls_.lower_share[d] = walls_.upper_share[d] = Field(size_);
+    walls_.lower_share[d] = walls_.upper_share[d] = walls_.host[d] = Field(size_);
   }
   if (walls_.has_bodies) solid_ = make_union(shapes_);
 }
@@ -207,6 +209,30 @@ void GeometryBuilder::fill_all_ghosts() {
     fill_ghosts(decomposition_, *field);
   }
   for (VectorField& normal : walls_.normal) fill_ghosts(decomposition_, normal);
+}
+
+// The neighbour behind the largest opening that has a face that takes part.
+void GeometryBuilder::choose_hosts() {
+  const auto shares = [&](int d, std::ptrdiff_t n) {
+    return walls_.lower_share[d][n] + walls_.upper_share[d][n];
+  };
+  for (int d = 0; d < 3; ++d) {
+    for_each_cell(size_, [&](int i, int j, int k) {
+      const std::ptrdiff_t n = walls_.wall_fraction.index(i, j, k);
+      if (walls_.wall_fraction[n] == 1.0 || shares(d, n) > 0.0) return;
+      double largest = 0.0;
+      for (int code = 1; code <= 6; ++code) {
+        const int e = (code - 1) / 2, side = (code - 1) % 2;
+        const std::ptrdiff_t neighbour = n + host_offset(walls_.wall_fraction, code);
+        const std::ptrdiff_t face = side == 0 ? n : neighbour;
+        const double opening = walls_.open_area[e][face] * (1.0 - walls_.wall_fraction[neighbour]);
+        if (shares(d, neighbour) == 0.0 || opening <= largest) continue;
+        largest = opening;
+        walls_.host[d](i, j, k) = code;
+      }
+    });
+  }
+  fill_ghosts(decomposition_, walls_.host);
 }
 
 }  // namespace

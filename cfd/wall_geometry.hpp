@@ -31,7 +31,18 @@ struct WallGeometry {
   // 1/2 each, or 0 and 1 when one face does not take part, or 0 and 0 when neither does.
   std::array<Field, 3> lower_share;
   std::array<Field, 3> upper_share;
+
+  // Cell centre: an open cell none of whose faces of direction d takes part (a cut cell whose face
+  // centres lie inside a body) lends its open volume and its grains, as far as direction d goes, to
+  // a neighbour across an open face. 1 + 2 e + s: the neighbour on side s of direction e; 0: none.
+  std::array<Field, 3> host;
 };
+
+// Local index offset from a cell to the host that `code` (a value of WallGeometry::host) names.
+inline std::ptrdiff_t host_offset(const Field& field, double code) {
+  const int n = static_cast<int>(code) - 1;
+  return n % 2 == 0 ? -field.stride(n / 2) : field.stride(n / 2);
+}
 
 // Samples the bodies that act on the gas. A cell through whose faces no gas can move counts as
 // solid, and so does a group of connected cells that are all cut: no cell of it resolves the gas.

@@ -225,7 +225,7 @@ void GasCoupling::add_drag_on_walls(double interval) {
     double force = 0;
     cfd::for_each_cell(size, [&](int i, int j, int k) {
       const std::ptrdiff_t n = void_fraction_.index(i, j, k);
-      if (walls.lower_share[d][n] + walls.upper_share[d][n] > 0) return;
+      if (walls.lower_share[d][n] + walls.upper_share[d][n] + walls.host[d][n] > 0) return;
       force += deposition_.open_fraction()[n] *
                (phase.exchange_momentum[d][n] - phase.momentum_exchange[n] * velocity_[d][n]);
     });
