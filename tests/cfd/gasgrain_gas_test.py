@@ -1,0 +1,103 @@
+"""gasgrain-gas as a user meets it: files of a good run, one clear error for a bad one.
+
+Usage: gasgrain_gas_test.py GASGRAIN_GAS MPIEXEC
+"""
+
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+
+CASE = """
+[grid]
+lower = [0, 0, 0]
+upper = [0.004, 0.004, 0.0156]
+cells = [2, 2, 13]
+[gas]
+density = 10
+viscosity = 1.5e-3
+[boundary]
+x_lower = {type = "slip"}
+x_upper = {type = "slip"}
+y_lower = {type = "slip"}
+y_upper = {type = "slip"}
+z_lower = {type = "inlet", superficial_velocity = 0.01}
+z_upper = {type = "outlet"}
+[fixed_bed]
+void_fraction = 0.451335
+diameter = 1e-3
+[run]
+end_time = 1e-3
+step = 1e-4
+[output]
+interval = 5e-4
+"""
+
+
+def run(program, directory, text, ranks=1, out="out"):
+    path = os.path.join(directory, "case.toml")
+    with open(path, "w") as file:
+        file.write(text)
+    command = [program[1], "-n", str(ranks), "--oversubscribe", program[0], path]
+    command += ["--out", os.path.join(directory, out)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60)
+
+
+def check(condition, message):
+    if not condition:
+        sys.exit("FAILED: " + message)
+
+
+def good_run_writes_its_files(program, directory):
+    result = run(program, directory, CASE, ranks=2)
+    check(result.returncode == 0, result.stderr)
+    out = os.path.join(directory, "out")
+    files = sorted(os.listdir(out))
+    check(files == ["gas.csv", "gas.xdmf"] + ["gas_%06d.h5" % n for n in range(3)], str(files))
+    with open(os.path.join(out, "gas.csv")) as file:
+        rows = list(csv.DictReader(file))
+    check(len(rows) == 10, "%d rows" % len(rows))
+    drop = float(rows[-1]["z_lower_pressure_Pa"]) - float(rows[-1]["z_upper_pressure_Pa"])
+    check(abs(drop - 115.09) < 0.005 * 115.09, "pressure drop %g Pa" % drop)
+    check(abs(float(rows[-1]["time_s"]) - 1e-3) < 1e-15, rows[-1]["time_s"])
+    check("remaining" in result.stdout and "z_lower" in result.stdout, result.stdout)
+
+
+BAD = [
+    ("an unknown key", ("density", "densty"), "did you mean 'density'"),
+    ("a value out of range", ("density = 10", "density = -10"), "gas.density: is -10"),
+    ("no end time", ("end_time = 1e-3", ""), "run.end_time"),
+    ("a body outside", ("[run]", "[[body]]\nname = 'far'\nsphere = {center = [9, 9, 9], "
+                        "radius = 1}\n[run]"), "body 'far'"),
+    ("no outlet", ('{type = "outlet"}', '{type = "slip"}'), "has no outlet"),
+    ("not TOML", ("[gas]", "[gas"), "not valid TOML"),
+]
+
+
+def bad_runs_say_why_once(program, directory):
+    for name, (old, new), expected in BAD:
+        result = run(program, directory, CASE.replace(old, new), ranks=2)
+        check(result.returncode != 0, name + ": exit code 0")
+        check(result.stderr.count("gasgrain-gas: error:") == 1, name + ": " + result.stderr)
+        check(expected in result.stderr, name + ": " + result.stderr)
+    thin = CASE.replace("[2, 2, 13]", "[1, 1, 2]")
+    result = run(program, directory, thin, ranks=3)
+    check(result.returncode != 0 and "fewer ranks" in result.stderr, result.stderr)
+
+
+def a_missing_file_is_an_error(program, directory):
+    result = subprocess.run([program[0], os.path.join(directory, "nope.toml")],
+                            capture_output=True, text=True, timeout=60)
+    check(result.returncode == 1 and "cannot read case file" in result.stderr, result.stderr)
+
+
+def main():
+    program = (sys.argv[1], sys.argv[2])
+    for test in (good_run_writes_its_files, bad_runs_say_why_once, a_missing_file_is_an_error):
+        with tempfile.TemporaryDirectory() as directory:
+            test(program, directory)
+        print("ok", test.__name__)
+
+
+main()
