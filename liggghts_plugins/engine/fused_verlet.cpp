@@ -135,8 +135,7 @@ void FusedVerlet::fused_step() {
     ghosts_.update_ghosts(loop_);
     timer->stamp(TIME_COMM);
   }
-  const bool closes = end_of_step_is_looked_at();
-  force_pass(closes);
+  force_pass(who_looks_at_the_end());
   timer->stamp(TIME_PAIR);
   end_step();
 }
@@ -213,7 +212,7 @@ bool FusedVerlet::reneighbouring_due() {
 
 // The middle of Verlet::run().
 void FusedVerlet::reneighbour() {
-  store_state();
+  store_state(0);
   store_histories();
   if (modify->n_pre_exchange) modify->pre_exchange();
   domain->pbc();
@@ -228,43 +227,53 @@ void FusedVerlet::reneighbour() {
   timer->stamp(TIME_NEIGHBOR);
 }
 
-bool FusedVerlet::end_of_step_is_looked_at() const {
+FusedVerlet::StepEnd FusedVerlet::who_looks_at_the_end() const {
   const bigint step = update->ntimestep;
-  if (step == last_step_ || step == output->next || quit_requested_ || stock_step_due(step + 1))
-    return true;
+  if (step == last_step_ || quit_requested_ || stock_step_due(step + 1)) return StepEnd::closed;
+  StepEnd end = step == output->next ? StepEnd::shown : StepEnd::passed;
   for (int n = 0; n < modify->nfix; ++n) {
     if (!(modify->fmask[n] & LAMMPS_NS::FixConst::END_OF_STEP)) continue;
     const LAMMPS_NS::Fix* fix = modify->fix[n];
     if (step % fix->nevery != 0) continue;
-    if (fix != plan_.held_force_fix || plan_.held_force->end_of_step_uses_atoms()) return true;
+    if (fix != plan_.held_force_fix) return StepEnd::closed;
+    if (plan_.held_force->end_of_step_uses_atoms()) end = StepEnd::shown;
   }
-  return false;
+  return end;
 }
 
-void FusedVerlet::force_pass(bool closes) {
-  const double kick = (closes ? 0.5 : 1.0) * update->dt * force->ftm2v;
+void FusedVerlet::force_pass(StepEnd end) {
+  const bool goes_on = end != StepEnd::closed;
+  const double step = update->dt, half_kick = 0.5 * step * force->ftm2v;
   const Vec3* held = plan_.held_force ? plan_.held_force->held_forces() : nullptr;
-  const PassSettings settings{.slip = {History::advance, update->dt},
-                              .kick = kick,
-                              .drift = closes ? 0.0 : update->dt,
+  const PassSettings settings{.slip = {History::advance, step},
+                              .kick = goes_on ? 2.0 * half_kick : half_kick,
+                              .drift = goes_on ? step : 0.0,
                               .gravity = plan_.acceleration,
                               .held_forces = held};
-  const GrainLoop::Observer store_loads = [&](int i, const LoadRecord& load) {
-    Column(atom->f[i]) = ConstColumn(load.force);
-    Column(atom->torque[i]) = ConstColumn(load.torque);
-    if (held) Column(atom->f[i]) += held[i];
+  const GrainLoop::Observer show = [&](int i, const LoadRecord& load) {
+    const GrainRecord& grain = loop_.grain(i);
+    const SpinRecord& spin = loop_.spin(i);
+    Vec3 f = ConstColumn(load.force);
+    if (held) f += held[i];
+    const ConstColumn torque(load.torque);
+    Column(atom->f[i]) = f;
+    Column(atom->torque[i]) = torque;
+    Column(atom->x[i]) = ConstColumn(grain.position);
+    Column(atom->v[i]) =
+        ConstColumn(grain.velocity) + half_kick * (grain.inverse_mass * f + plan_.acceleration);
+    Column(atom->omega[i]) =
+        ConstColumn(spin.velocity) + (half_kick * spin.inverse_inertia) * torque;
   };
-  loop_.force_pass(settings, closes ? &store_loads : nullptr);
+  loop_.force_pass(settings, end != StepEnd::passed ? &show : nullptr);
   histories_are_ours_ = true;
+  closed_ = !goes_on;
   contact_statistics().note(loop_.largest_overlap());
   if (plan_.held_force) plan_.held_force->held_forces_applied();
-  if (closes) {
-    store_state();
+  if (end != StepEnd::passed) {
+    store_state(atom->nlocal);  // ghosts
     for (LAMMPS_NS::Fix* fix : plan_.gravity) fix->post_force(vflag);
-    closed_ = true;
-  } else {
-    note_drift(loop_.square_speed());
   }
+  if (goes_on) note_drift(loop_.square_speed());
 }
 
 void FusedVerlet::end_step() {
@@ -329,9 +338,9 @@ void FusedVerlet::load_pairs() {
   pairs.set_touching(std::move(touching));
 }
 
-void FusedVerlet::store_state() {
+void FusedVerlet::store_state(int from) {
   const int total = loop_.counts().total();
-  for (int i = 0; i < total; ++i) {
+  for (int i = from; i < total; ++i) {
     Column(atom->x[i]) = ConstColumn(loop_.grain(i).position);
     Column(atom->v[i]) = ConstColumn(loop_.grain(i).velocity);
     Column(atom->omega[i]) = ConstColumn(loop_.spin(i).velocity);

@@ -6,9 +6,9 @@
 // LIGGGHTS's own, called as Verlet calls them; so are whole steps in which pressure or energy of
 // the pair style are asked for.
 //
-// A step n: [positions of n are known] forces -> end of step n (velocities by half a kick, arrays
-// up to date) -> half a kick, drift to n + 1. When nobody looks at the end of step n, the two half
-// kicks are one.
+// A step n: [positions of n are known] forces -> half a kick: the end of step n -> half a kick,
+// drift to n + 1. Unless somebody may change the grains at the end of step n, the two half kicks
+// are one, and the arrays get the end of the step in passing when somebody reads them.
 #pragma once
 
 #include <verlet.h>
@@ -29,6 +29,13 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
   void run(int steps) override;
 
  private:
+  // What becomes of the end of a step.
+  enum class StepEnd {
+    passed,  // nobody looks: the two half kicks are one
+    shown,   // the atom arrays hold it, for reading; the grains go on
+    closed   // the grains stop there, and go on from the atom arrays
+  };
+
   void plan();
   void print_plan() const;
 
@@ -40,15 +47,15 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
   void open_step();
   bool reneighbouring_due();
   void reneighbour();
-  bool end_of_step_is_looked_at() const;
-  void force_pass(bool closes);
+  StepEnd who_looks_at_the_end() const;
+  void force_pass(StepEnd end);
   void end_step();
 
   // Between the atom arrays and our records.
   void load_grains();
   void load_pairs();
   void load_state();
-  void store_state();
+  void store_state(int from);
   void store_histories();
 
   void note_drift(double square_speed);
