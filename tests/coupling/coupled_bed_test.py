@@ -1,0 +1,127 @@
+"""A LIGGGHTS script with gas, from the script to the files, at several rank counts."""
+
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import coupled_bed as bed
+
+NAMES = ["bed_height_mean", "pressure_drop_mean", "pressure_drop_force_balance",
+         "momentum_balance_residual", "solid_volume_residual", "overlap_max", "time_dem",
+         "time_coupling", "time_gas", "grain_steps_per_second"]
+
+
+class CoupledBed(unittest.TestCase):
+    def test_closes_the_vertical_momentum_balance_at_any_number_of_ranks(self):
+        for ranks in bed.ranks_to_test():
+            with self.subTest(ranks=ranks):
+                bench = bed.bench(bed.case(coupling="average_from = 0.01"))
+                bench.run(bed.script("run 2500"), ranks=ranks)
+                found = bed.quantities(bench.directory)
+                self.assertLess(found["momentum_balance_residual"], 1e-9)
+                self.assertLess(found["third_law_residual"], 1e-12)
+                self.assertLess(found["solid_volume_residual"], 1e-12)
+                self.assertAlmostEqual(found["pressure_drop_weight_over_area"],
+                                       bed.weight() / bed.AREA, delta=1e-6)
+
+    def test_fields_do_not_depend_on_the_ranks(self):
+        # a few exchanges, before rounding errors of the grains' contacts have grown
+        reference = None
+        for ranks in bed.ranks_to_test():
+            bench = bed.bench(bed.case(coupling="gas_step = 6e-5", interval=1e-5))
+            bench.run(bed.script("run 30"), ranks=ranks)
+            rows = bed.series(bench.directory)
+            self.assertEqual(len(rows), 6)
+            reference = reference or rows
+            for row, expected in zip(rows, reference):
+                for name in ("pressure_drop", "bed_height", "kinetic_energy", "bodies_on_gas",
+                             "walls_on_grains", "smallest_void_fraction"):
+                    self.assertAlmostEqual(row[name], expected[name],
+                                           delta=1e-8 * max(abs(expected[name]), 1e-9),
+                                           msg=f"{name} at {ranks} ranks")
+
+    def test_drop_of_pressure_carries_the_bed(self):
+        # residual aside, the time mean of the balance: drop times area = weight + walls + change
+        bench = bed.bench(bed.case())
+        bench.run(bed.script("run 2500"), ranks=2)
+        rows = bed.series(bench.directory)
+        late = rows[len(rows) // 2:]
+        drop = sum(row["pressure_drop"] for row in late) / len(late)
+        carried = sum(row["grain_momentum_rate"] + row["gas_momentum_rate"] - row["grain_weight"]
+                      - row["gas_weight"] - row["walls_on_grains"] - row["bodies_on_gas"]
+                      - row["walls_by_drag"] - row["gas_through_sides"] - row["in_transit"]
+                      for row in late) / len(late)
+        self.assertAlmostEqual(drop * bed.AREA, carried, delta=0.05 * bed.weight())
+
+    def test_writes_what_the_issue_asks_for(self):
+        bench = bed.bench(bed.case(coupling='case_name = "small bed"', interval=0.003))
+        bench.run(bed.script("run 1000"), ranks=2)
+        result = bed.summary(bench.directory)
+        self.assertEqual(result["case"], "small bed")
+        self.assertTrue(result["commit"])
+        names = [quantity["name"] for quantity in result["quantities"]]
+        for name in NAMES:
+            self.assertIn(name, names)
+        for quantity in result["quantities"]:
+            self.assertEqual(set(quantity),
+                             {"name", "value", "unit", "reference", "tolerance", "source"})
+        times = {}
+        for name in ("gas", "grains"):
+            index = ElementTree.parse(bench.directory / "out" / f"{name}.xdmf")
+            times[name] = [float(time.get("Value")) for time in index.iter("Time")]
+        self.assertEqual(times["gas"], times["grains"])  # one time line
+        self.assertEqual(len(times["gas"]), 5)  # start, three whole intervals, last exchange
+
+    def test_several_runs_continue_one_another(self):
+        whole = bed.bench(bed.case(coupling="series_interval = 1e-4"))
+        whole.run(bed.script("run 200"))
+        pieces = bed.bench(bed.case(coupling="series_interval = 1e-4"))
+        pieces.run(bed.script("run 0\nrun 100\nrun 100"))
+        for row, expected in zip(bed.series(pieces.directory), bed.series(whole.directory),
+                                 strict=True):
+            for name, value in expected.items():
+                self.assertAlmostEqual(row[name], value, delta=1e-9 * max(1.0, abs(value)),
+                                       msg=name)
+
+    def test_grains_come_to_rest_without_a_flow(self):
+        bench = bed.bench(bed.case(bottom='"no-slip"'))
+        bench.run(bed.script("run 12000"), ranks=2)
+        energy = [row["kinetic_energy"] for row in bed.series(bench.directory)]
+        self.assertLess(energy[-1], 1e-4 * max(energy))
+        self.assertLess(max(energy[-10:]), max(energy[-40:-30]))
+
+
+class BadInput(unittest.TestCase):
+    def assert_fails(self, expected, case_text=None, script=None, ranks=2):
+        bench = bed.bench(case_text or bed.case())
+        done = bench.run(script or bed.script("run 10"), ranks=ranks, check=False)
+        self.assertNotEqual(done.code, 0)
+        errors = [line for line in done.text.splitlines() if line.startswith("ERROR")]
+        self.assertEqual(len(errors), 1, done.text[-2000:])
+        for part in expected:
+            self.assertIn(part, errors[0])
+        self.assertFalse((bench.directory / "out" / "summary.json").exists())
+
+    def test_case_file_that_does_not_exist(self):
+        script = bed.script("run 10").replace("couple/gas case case.toml", "couple/gas case x.toml")
+        self.assert_fails(["x.toml", "cannot read"], script=script)
+
+    def test_unknown_key_suggests_the_nearest(self):
+        self.assert_fails(["coupling.gas_stp", "gas_step"], bed.case(coupling="gas_stp = 1e-4"))
+
+    def test_unknown_drag_law(self):
+        self.assert_fails(["coupling.drag", "gidaspow"], bed.case(coupling='drag = "ergn"'))
+
+    def test_value_out_of_range(self):
+        self.assert_fails(["coupling.gas_step", "-1"], bed.case(coupling="gas_step = -1"))
+
+    def test_unknown_keyword_of_the_fix(self):
+        script = bed.script("run 10").replace("out out", "output out")
+        self.assert_fails(["fix gas couple/gas", "'output'"], script=script)
+
+    def test_more_ranks_than_layers(self):
+        thin = bed.case().replace("cells = [6, 4, 16]", "cells = [1, 1, 2]")
+        self.assert_fails(["cells"], thin, ranks=3)
+
+
+if __name__ == "__main__":
+    unittest.main()
