@@ -7,10 +7,13 @@ grains are chaotic); a wrong force, a lost contact history or a stale ghost show
 
 import random
 import re
+import signal
+import subprocess
+import time
 import unittest
 
 import bed_of_grains as bed
-from liggghts_run import (Bench, Grain, cgm_properties, data_file, dump_command,
+from liggghts_run import (ENVIRONMENT, GASGRAIN, MPIEXEC, Bench, Grain, cgm_properties, data_file, dump_command,
                           largest_difference, preamble, thermo)
 
 SPEED = 0.5  # m/s
@@ -174,6 +177,27 @@ def reference_log(bench):
     return (bench.directory / "log.txt").read_text()
 
 
+class ManyGrains(EngineTest):
+    def test_energies_of_50_000_grains(self):
+        """Kinetic and rotational energy to 8 digits after 400 steps."""
+        numbers = random.Random(5)
+        pitch, counts = 2.01 * RADIUS, (50, 20, 50)
+        grains = [Grain(tuple((n + 0.5) * pitch for n in (i, j, k)), RADIUS,
+                        tuple(numbers.gauss(0, SPEED) for _ in range(3)),
+                        tuple(numbers.gauss(0, SPEED / RADIUS) for _ in range(3)))
+                  for k in range(counts[2]) for j in range(counts[1]) for i in range(counts[0])]
+        data = data_file(grains, [0, 0, 0], [n * pitch for n in counts], types=2)
+        rest = ("compute er all erotate/sphere\n" + thermo_of("c_er") + "run 400\n")
+        text = scene(boundary="p p p", walls="")
+        reference, fused, _ = self.off_and_fused(text, rest, {"grains.data": data})
+        rows = [thermo(reference_log(bench))[-1] for bench in (reference, fused)]
+        self.assertEqual(rows[0][0], 400)
+        self.assertEqual(rows[0][1], 50000)
+        for value, expected in zip(rows[1][2:], rows[0][2:], strict=True):
+            self.assertLess(abs(value - expected), 1e-8 * expected)
+            self.assertGreater(expected, 0)
+
+
 class HandingOver(EngineTest):
     def test_two_runs_and_back_to_the_stock_loop(self):
         """Contact histories are whole wherever the engine hands back, with `pre no` too."""
@@ -265,6 +289,72 @@ class Insertion(EngineTest):
             INSERTION + dump_command("d", 100) + "run 700\n", files([]))
         frames = self.assert_same_motion(reference, fused, ((300, 1e-10), (700, 1e-8)))
         self.assertGreater(len(frames[-1]), 30)
+
+
+GAS = f"""
+[grid]
+lower = [0.0, 0.0, 0.0]
+upper = [{2 * SIDE}, {SIDE}, {2 * SIDE}]
+cells = [6, 3, 6]
+[gas]
+density = 1.2
+viscosity = 1.8e-5
+gravity = [0.0, 0.0, -9.81]
+[boundary]
+z_lower = {{type = "inlet", superficial_velocity = 0.5}}
+z_upper = {{type = "outlet", pressure = 0.0}}
+x_lower = {{type = "slip"}}
+x_upper = {{type = "slip"}}
+y_lower = {{type = "slip"}}
+y_upper = {{type = "slip"}}
+[numerics]
+pressure_tolerance = 1e-12
+[coupling]
+gas_step = 5e-5
+"""
+
+
+class Gas(EngineTest):
+    def test_gas_force_and_momentum_balance(self):
+        """The held force acts as in the stock loop, and the audit closes: loads of walls and the
+        impulse of the gas are those that the grains got."""
+        gas = "fix gas all couple/gas case gas.toml out out\n"
+        rest = gas + dump_command("d", 50) + "run 500\nrun 100\n"
+        scene_files = {**files(crowd()), "gas.toml": GAS}
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                reference, fused, run = self.off_and_fused(scene(), rest, scene_files, ranks)
+                self.assertIn("couple/gas", run.text)
+                self.assert_same_motion(reference, fused, ((300, 1e-9), (600, 1e-8)), every=50)
+                residual = re.search(r"vertical momentum +largest residual (\S+)", run.text)
+                self.assertLess(float(residual[1]), 1e-10)
+        without = Bench(scene_files)
+        without.run("gasgrain_engine fused\n" + scene() + rest.replace(gas, ""))
+        self.assertGreater(largest_difference(without.frames("d.dump"), fused.frames("d.dump"),
+                                              SCALE), 1e-3)
+
+
+class Signal(EngineTest):
+    def test_interrupt_ends_the_run_after_a_whole_step(self):
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                bench = Bench(files(crowd()))
+                (bench.directory / "in.script").write_text(
+                    "gasgrain_engine fused\n" + scene() + thermo_of("") +
+                    "run 100\nprint READY\nrun 100000000\nprint ENDED\n")
+                command = [GASGRAIN, "-in", "in.script", "-log", "log.txt"]
+                if ranks > 1:
+                    command = [MPIEXEC, "--oversubscribe", "-n", str(ranks), *command]
+                process = subprocess.Popen(command, cwd=bench.directory, env=ENVIRONMENT,
+                                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                           stderr=subprocess.STDOUT, text=True)
+                for line in process.stdout:
+                    if line.startswith("READY"):
+                        break
+                time.sleep(1)
+                process.send_signal(signal.SIGINT if ranks == 1 else signal.SIGTERM)
+                text = process.communicate(timeout=60)[0]
+                self.assertRegex(text, r"Loop time of \S+ on")
 
 
 class Plan(EngineTest):
