@@ -21,7 +21,7 @@ Vec3 read_superficial_velocity(const ConfigTable& table, int direction, int side
   if (!table.is_list(key)) {
     return inward * table.number(key, Range::non_negative()) * Vec3::Unit(direction);
   }
-  const Vec3 velocity = table.vector(key);
+  Vec3 velocity = table.vector(key);
   if (inward * velocity[direction] < 0.0) {
     table.fail(key, "points out of the grid; an inlet blows inwards, use an outlet for the rest");
   }

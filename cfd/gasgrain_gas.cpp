@@ -61,29 +61,28 @@ void run_case(const Options& options) {
   GasRun(gas_case, MPI_COMM_WORLD).run();
 }
 
-// Every rank gets the same UserError, rank 0 prints it; anything else is ours and may have happened
-// on one rank only.
-int guarded_run(const Options& options) {
-  try {
-    run_case(options);
-    return 0;
-  } catch (const UserError& error) {
-    if (rank_of_world() == 0) std::cerr << "gasgrain-gas: error: " << error.what() << "\n";
-    return 1;
-  } catch (const std::exception& error) {
-    std::cerr << "gasgrain-gas: internal error on rank " << rank_of_world() << ": " << error.what()
-              << "\n";
-    MPI_Abort(MPI_COMM_WORLD, 2);
-    return 2;
-  }
+int run_program(int argc, char** argv) {
+  int code = 0;
+  if (const std::optional<Options> options = parse(argc, argv, code)) run_case(*options);
+  return code;
 }
 
 }  // namespace
 
+// Every rank gets the same UserError, rank 0 prints it; anything else is ours and may have happened
+// on one rank only.
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
-  int code = 0;
-  if (const std::optional<Options> options = parse(argc, argv, code)) code = guarded_run(*options);
+  int code = 1;
+  try {
+    code = run_program(argc, argv);
+  } catch (const UserError& error) {
+    if (rank_of_world() == 0) std::fprintf(stderr, "gasgrain-gas: error: %s\n", error.what());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "gasgrain-gas: internal error on rank %d: %s\n", rank_of_world(),
+                 error.what());
+    MPI_Abort(MPI_COMM_WORLD, 2);
+  }
   MPI_Finalize();
   return code;
 }
