@@ -151,9 +151,8 @@ void GasCoupling::deposit_void_fraction() {
 void GasCoupling::evaluate_drag() {
   const std::vector<GrainRecord>& grains = transfer_.received();
   gas_.sample_at_cells(velocity_, pressure_gradient_);
-  cfd::Field eps = void_fraction_;
   std::vector<std::array<double, 4>> gathered(grains.size());
-  deposition_.gather<4>(gathered, {&eps, &velocity_[0], &velocity_[1], &velocity_[2]});
+  deposition_.gather<4>(gathered, {&void_fraction_, &velocity_[0], &velocity_[1], &velocity_[2]});
   coefficients_.assign(grains.size(), 0.0);
   void_fractions_.resize(grains.size());
   for (std::size_t n = 0; n < grains.size(); ++n) {
@@ -236,7 +235,8 @@ void GasCoupling::add_drag_on_walls(double interval) {
 void GasCoupling::gather_forces() {
   const std::vector<GrainRecord>& grains = transfer_.received();
   std::vector<std::array<double, 6>> gathered(grains.size());
-  deposition_.gather<6>(gathered, components(velocity_, pressure_gradient_));
+  const cfd::VectorField &u = velocity_, &p = pressure_gradient_;
+  deposition_.gather<6>(gathered, {&u[0], &u[1], &u[2], &p[0], &p[1], &p[2]});
   drag_.resize(grains.size());
   pressure_.resize(grains.size());
   forces_.resize(grains.size());

@@ -57,10 +57,9 @@ SmoothingPlan plan_smoothing(const cfd::Grid& grid, double width) {
 }
 
 Smoothing::Smoothing(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls)
-    : layers_(decomposition),
+    : decomposition_(decomposition),
       open_fraction_(connected_open_fraction(decomposition, walls)),
-      inverse_open_fraction_(decomposition.block().size),
-      scratch_(decomposition.block().size) {
+      inverse_open_fraction_(decomposition.block().size) {
   const cfd::Index3 size = decomposition.block().size;
   cfd::for_each_cell(size, [&](int i, int j, int k) {
     const double open = open_fraction_(i, j, k);
@@ -91,32 +90,45 @@ void Smoothing::set_plan(const SmoothingPlan& plan) {
   }
 }
 
-void Smoothing::sweep(cfd::Field& field) {
-  const cfd::Index3 size = field.size();
-  const std::ptrdiff_t sx = field.stride(0), sy = field.stride(1), sz = field.stride(2);
+template <int components>
+void Smoothing::sweep(CellArray<components>& cells) {
+  const cfd::Index3& size = open_fraction_.size();
+  const std::ptrdiff_t sx = open_fraction_.stride(0), sy = open_fraction_.stride(1),
+                       sz = open_fraction_.stride(2);
+  CellArray<components>& scratch = std::get<CellArray<components>>(scratch_);
+  scratch.resize(cells.size());
   const double *__restrict cx = conductance_[0].data(), *__restrict cy = conductance_[1].data(),
                *__restrict cz = conductance_[2].data(),
-               *__restrict inverse = inverse_open_fraction_.data(), *__restrict f = field.data();
-  double* __restrict out = scratch_.data();
+               *__restrict inverse = inverse_open_fraction_.data();
+  const auto* __restrict f = cells.data();
+  auto* __restrict out = scratch.data();
   for (int k = 0; k < size[2]; ++k) {
     for (int j = 0; j < size[1]; ++j) {
-      const std::ptrdiff_t row = field.index(0, j, k);
+      const std::ptrdiff_t row = open_fraction_.index(0, j, k);
       for (std::ptrdiff_t n = row; n < row + size[0]; ++n) {
-        const double inflow = cx[n] * (f[n - sx] - f[n]) + cx[n + sx] * (f[n + sx] - f[n]) +
-                              cy[n] * (f[n - sy] - f[n]) + cy[n + sy] * (f[n + sy] - f[n]) +
-                              cz[n] * (f[n - sz] - f[n]) + cz[n + sz] * (f[n + sz] - f[n]);
-        out[n] = f[n] + inverse[n] * inflow;
+        for (int m = 0; m < components; ++m) {
+          const double inflow =
+              cx[n] * (f[n - sx][m] - f[n][m]) + cx[n + sx] * (f[n + sx][m] - f[n][m]) +
+              cy[n] * (f[n - sy][m] - f[n][m]) + cy[n + sy] * (f[n + sy][m] - f[n][m]) +
+              cz[n] * (f[n - sz][m] - f[n][m]) + cz[n + sz] * (f[n + sz][m] - f[n][m]);
+          out[n][m] = f[n][m] + inverse[n] * inflow;
+        }
       }
     }
   }
-  std::swap(field, scratch_);
+  std::swap(cells, scratch);
 }
 
-void Smoothing::apply(std::span<cfd::Field* const> fields) {
+template <int components>
+void Smoothing::apply(CellArray<components>& cells) {
   for (int s = 0; s < plan_.sweeps; ++s) {
-    layers_.fill(fields);
-    for (cfd::Field* field : fields) sweep(*field);
+    fill_face_ghosts<components>(decomposition_, cells);
+    sweep<components>(cells);
   }
 }
+
+template void Smoothing::apply<1>(CellArray<1>&);
+template void Smoothing::apply<4>(CellArray<4>&);
+template void Smoothing::apply<6>(CellArray<6>&);
 
 }  // namespace gasgrain::coupling

@@ -1,12 +1,12 @@
 // Conservative diffusion of cell fields within the open space: widens the deposition kernel.
 #pragma once
 
-#include <span>
+#include <tuple>
 
 #include "cfd/field.hpp"
 #include "cfd/grid.hpp"
 #include "cfd/wall_geometry.hpp"
-#include "coupling/layer_exchange.hpp"
+#include "coupling/cell_array.hpp"
 
 namespace gasgrain::coupling {
 
@@ -22,6 +22,7 @@ SmoothingPlan plan_smoothing(const cfd::Grid& grid, double width);
 
 class Smoothing {
  public:
+  // Keeps a reference to `decomposition`.
   Smoothing(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls);
 
   void set_plan(const SmoothingPlan& plan);
@@ -31,20 +32,22 @@ class Smoothing {
   // the grid. Ghosts filled.
   const cfd::Field& open_fraction() const { return open_fraction_; }
 
-  // All sweeps, in place, on intensive fields (amount per open volume). Collective; ghosts are
+  // All sweeps, in place, on intensive values (amount per open volume). Collective; ghosts are
   // overwritten and stale afterwards.
-  void apply(std::span<cfd::Field* const> fields);
+  template <int components>
+  void apply(CellArray<components>& cells);
 
  private:
-  void sweep(cfd::Field& field);
+  template <int components>
+  void sweep(CellArray<components>& cells);
 
-  LayerExchange layers_;
+  const cfd::Decomposition& decomposition_;
   SmoothingPlan plan_;
   cfd::Field open_fraction_;
   cfd::Field inverse_open_fraction_;  // 0 in closed cells
   cfd::VectorField passage_;          // min(1 - alpha) of the two cells of an open face, else 0
   cfd::VectorField conductance_;      // lambda * passage
-  cfd::Field scratch_;
+  std::tuple<CellArray<1>, CellArray<4>, CellArray<6>> scratch_;
 };
 
 }  // namespace gasgrain::coupling

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "coupling/smoothing.hpp"
@@ -32,17 +33,17 @@ class Deposition {
   std::size_t size() const { return stencils_.size(); }
   bool takes_part(std::size_t grain) const { return stencils_[grain].weight > 0; }
 
-  // D: cells[c] = deposited amount of component c per open volume of the cell. Amounts are stored
-  // grain by grain, all components of a grain adjacent. Collective; ghosts are not filled.
+  // D: cells[c] = deposited amount of component c per open volume, in owned cells. Amounts are
+  // stored grain by grain, all components of a grain adjacent. Collective.
   template <int components>
   void deposit(const std::array<cfd::Field*, components>& cells,
                std::span<const std::array<double, components>> amounts);
 
-  // Transpose of D times the open volume of cells: the kernel's mean of cells[c] around each grain.
-  // Collective; overwrites `cells` by their smoothed values.
+  // Transpose of D times the open volume of cells: the kernel's mean of cells[c] around each grain,
+  // from owned cells. Collective.
   template <int components>
   void gather(std::span<std::array<double, components>> values,
-              const std::array<cfd::Field*, components>& cells);
+              const std::array<const cfd::Field*, components>& cells);
 
  private:
   struct Stencil {
@@ -54,6 +55,7 @@ class Deposition {
   const cfd::Decomposition& decomposition_;
   Smoothing smoothing_;
   std::vector<Stencil> stencils_;
+  std::tuple<CellArray<1>, CellArray<4>, CellArray<6>> buffers_;
 };
 
 }  // namespace gasgrain::coupling
