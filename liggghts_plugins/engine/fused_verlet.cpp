@@ -24,6 +24,7 @@
 #include "coupling/shared/error.hpp"
 #include "liggghts_plugins/contact_statistics.hpp"
 #include "liggghts_plugins/engine/engine_mode.hpp"
+#include "liggghts_plugins/engine/primitive_wall_loads.hpp"
 #include "liggghts_plugins/fix_wall_sdf.h"
 #include "liggghts_plugins/pair_gran_cgm.hpp"
 #include "liggghts_plugins/private_member.hpp"
@@ -250,6 +251,9 @@ void FusedVerlet::force_pass(StepEnd end) {
                               .drift = goes_on ? step : 0.0,
                               .gravity = plan_.acceleration,
                               .held_forces = held};
+  loop_.outside_loads().resize(plan_.primitive_walls.size());
+  for (std::size_t w = 0; w < plan_.primitive_walls.size(); ++w)
+    compute_wall_loads(loop_.outside_loads()[w], *plan_.primitive_walls[w], *atom, loop_);
   const GrainLoop::Observer show = [&](int i, const LoadRecord& load) {
     const GrainRecord& grain = loop_.grain(i);
     const SpinRecord& spin = loop_.spin(i);

@@ -91,6 +91,19 @@ void GrainLoop::note_travel(double distance) {
   near_travelled_ += distance;
 }
 
+// Of grains before `end`.
+void GrainLoop::add_outside_loads(int end) {
+  for (std::size_t list = 0; list < outside_loads_.size(); ++list) {
+    const std::vector<GrainLoad>& loads = outside_loads_[list];
+    std::size_t& n = outside_done_[list];
+    for (; n < loads.size() && loads[n].grain < end; ++n) {
+      LoadRecord& sum = loads_[loads[n].grain & ring_.mask];
+      Eigen::Map<Vec3>(sum.force) += loads[n].force;
+      Eigen::Map<Vec3>(sum.torque) += loads[n].torque;
+    }
+  }
+}
+
 void GrainLoop::force_pass(const PassSettings& settings, const Observer* observer) {
   if (2.0 * near_travelled_ > near_margin_) choose_near_pairs();
   largest_[0] = largest_[1] = 0.0;
@@ -125,11 +138,13 @@ void GrainLoop::force_pass(const PassSettings& settings, const Observer* observe
       .square_speed = 0.0};
 
   for (WallContacts& wall : walls_) wall.begin_step();
+  outside_done_.assign(outside_loads_.size(), 0);
   for (int block = 0; block < pairs_.block_count(); ++block) {
     integration.begin = block * grains_per_block;
     integration.end = std::min(counts_.local, integration.begin + grains_per_block);
     pairs_.add_contact_loads(block, contacts, tangential_, uniform_);
     for (WallContacts& wall : walls_) wall.add_contact_loads(block, wall_batch);
+    add_outside_loads(integration.end);
     if (observer)
       for (int i = integration.begin; i < integration.end; ++i)
         (*observer)(i, loads_[i & ring_.mask]);

@@ -43,6 +43,13 @@ struct PassSettings {
   const Vec3* held_forces;  // N per local grain, or nullptr
 };
 
+// A load that comes from outside of the loop.
+struct GrainLoad {
+  int grain;
+  Vec3 force;   // N
+  Vec3 torque;  // N m
+};
+
 class GrainLoop {
  public:
   // Called for every local grain with its contact load, before integration.
@@ -52,6 +59,8 @@ class GrainLoop {
   void set_grain(int i, const GrainState& state);
   ContactList& pairs() { return pairs_; }
   std::vector<WallContacts>& walls() { return walls_; }
+  // Loads of the next pass from outside: lists of ascending grains.
+  std::vector<std::vector<GrainLoad>>& outside_loads() { return outside_loads_; }
   // After all of the above. `skin`: distance of the surfaces of candidates, m.
   void finish_loading(double skin);
 
@@ -70,6 +79,7 @@ class GrainLoop {
   PairCoefficients coefficients(int i, int j) const;
   void size_ring();
   void choose_near_pairs();
+  void add_outside_loads(int end);
 
   GrainCounts counts_;
   TangentialModel tangential_ = TangentialModel::history;
@@ -82,6 +92,8 @@ class GrainLoop {
   LoadRing ring_{};
   ContactList pairs_;
   std::vector<WallContacts> walls_;
+  std::vector<std::vector<GrainLoad>> outside_loads_;
+  std::vector<std::size_t> outside_done_;  // loads of each list that have been added
   bool uniform_ = false;
   double near_margin_ = 0;     // m
   double near_travelled_ = 0;  // m since the near pairs were chosen

@@ -6,6 +6,7 @@
 #include <fix.h>
 #include <fix_gravity.h>
 #include <fix_nve_sphere.h>
+#include <fix_wall_gran.h>
 #include <force.h>
 #include <lammps.h>
 #include <modify.h>
@@ -18,6 +19,7 @@
 #include <cstring>
 #include <string>
 
+#include "liggghts_plugins/engine/primitive_wall_loads.hpp"
 #include "liggghts_plugins/fix_wall_sdf.h"
 #include "liggghts_plugins/pair_gran_cgm.hpp"
 #include "liggghts_plugins/private_member.hpp"
@@ -141,6 +143,11 @@ class Planner {
       plan_.held_force_fix = &fix;
       return true;
     }
+    if (auto* wall = dynamic_cast<LAMMPS_NS::FixWallGran*>(&fix);
+        wall && is_style(fix, "wall/gran") && computes_loads_only(*wall)) {
+      plan_.primitive_walls.push_back(wall);
+      return true;
+    }
     if (is_style(fix, "gravity")) {
       auto& gravity = static_cast<FixGravity&>(fix);
       if (gravity.*private_member(GravityVariables()) != 0) oppose(name + " with variables");
@@ -200,6 +207,8 @@ std::string ScenePlan::text() const {
       std::string("Engine: fused: cgm tangential ") + tangential_name(pair->tangential());
   if (!gravity.empty()) text += ", gravity";
   if (!walls.empty()) text += ", wall/sdf x " + std::to_string(walls.size());
+  if (!primitive_walls.empty())
+    text += ", wall/gran primitive x " + std::to_string(primitive_walls.size());
   if (held_force) text += ", " + std::string(held_force_fix->style);
   return text + ", nve/sphere";
 }

@@ -9,6 +9,7 @@
 
 namespace LAMMPS_NS {
 class Fix;
+class FixWallGran;
 class LAMMPS;
 }  // namespace LAMMPS_NS
 
@@ -22,7 +23,8 @@ struct ScenePlan {
   std::vector<std::string> obstacles;
 
   PairGranCgm* pair = nullptr;
-  std::vector<FixWallSdf*> walls;               // in the order of the script
+  std::vector<FixWallSdf*> walls;  // in the order of the script
+  std::vector<LAMMPS_NS::FixWallGran*> primitive_walls;
   std::vector<LAMMPS_NS::Fix*> gravity;         // their post_force() keeps their energy up to date
   Vec3 acceleration = Vec3::Zero();             // m/s^2, sum of the above
   HeldForceFix* held_force = nullptr;           // fix couple/gas

@@ -134,6 +134,35 @@ class SameMotion(EngineTest):
                 self.check(scene(boundary="p p p", walls=""), files(crowd()), ranks,
                            dump_command("d", 100, UNWRAPPED) + "run 1000\n")
 
+    PRIMITIVES = "".join(
+        f"fix {name} all wall/gran model {{model}} primitive type 2 {kind} {place:.17g}{more}\n"
+        for name, kind, place, more in (
+            ("west", "xplane", 0, ""), ("east", "xplane", 2 * SIDE, ""),
+            ("south", "yplane", 0, ""), ("north", "yplane", SIDE, ""),
+            ("floor", "zplane", 0, " shear x 0.2"), ("lid", "zplane", 2 * SIDE, "")))
+
+    def test_stock_primitive_walls(self):
+        """Walls of LIGGGHTS, moving in their plane and with a model of their own, too."""
+        stock = ("fix kn all property/global kn peratomtypepair 2 50 50 50 50\n"
+                 "fix kt all property/global kt peratomtypepair 2 40 40 40 40\n"
+                 "fix gn all property/global gamman_abs peratomtypepair 2 1e-4 1e-4 1e-4 1e-4\n"
+                 "fix gt all property/global gammat_abs peratomtypepair 2 1e-4 1e-4 1e-4 1e-4\n")
+        for model, more, ranks in (
+                ("cgm tangential history", "", 1), ("cgm tangential history", "", 2),
+                ("hooke/stiffness tangential history absolute_damping on", stock, 1)):
+            with self.subTest(model=model, ranks=ranks):
+                names = model.split(" absolute")[0]
+                walls = more + self.PRIMITIVES.format(model=names)
+                if more:
+                    walls = "".join(line + (" absolute_damping on" if "wall/gran" in line else "") +
+                                    "\n" for line in walls.splitlines())
+                rest = dump_command("d", 100) + "run 500\nrun 500\n"
+                _, fused, run = self.off_and_fused(scene(walls=walls), rest, files(crowd()), ranks)
+                self.assertIn("wall/gran primitive x 6", run.text)
+                self.check(scene(walls=walls), files(crowd()), ranks, rest)
+                low = min(grain[2] for grain in fused.frames("d.dump")[-1].values())
+                self.assertGreater(low, 0.5 * RADIUS)  # the floor has held them
+
     def test_ranks(self):
         for ranks in (2, 4):
             with self.subTest(ranks=ranks):
@@ -357,9 +386,23 @@ class Signal(EngineTest):
                 self.assertRegex(text, r"Loop time of \S+ on")
 
 
+def plate(height, lower, upper):
+    """An STL file of a square plate."""
+    (a, b), (c, d) = lower, upper
+    text = "solid plate\n"
+    for corners in (((a, b), (c, b), (c, d)), ((a, b), (c, d), (a, d))):
+        text += "facet normal 0 0 1\n outer loop\n"
+        text += "".join(f"  vertex {x:.9g} {y:.9g} {height:.9g}\n" for x, y in corners)
+        text += " endloop\nendfacet\n"
+    return text + "endsolid plate\n"
+
+
+PLATE = plate(1e-4, (1e-3, 1e-3), (2 * SIDE - 1e-3, SIDE - 1e-3))
+
+
 class Plan(EngineTest):
     def run_mode(self, mode, commands, check=True):
-        bench = Bench(files(crowd()))
+        bench = Bench({**files(crowd()), "plate.stl": PLATE})
         return bench, bench.run(f"gasgrain_engine {mode}\n" + scene() + commands +
                                 dump_command("d", 100) + "run 200\n", check=check)
 
@@ -367,8 +410,9 @@ class Plan(EngineTest):
         "fix freeze": "group some id 1:100\nfix frozen some freeze\n",
         "fix drag viscous": "fix drag all viscous 1e-6\n",
         "fix every ave/time": "fix every all ave/time 1 1 100 f_floor[3] file t.txt\n",
-        "fix mesh wall/gran": "fix mesh all wall/gran model cgm tangential history primitive "
-                              "type 2 zplane 0.0001\n",
+        "fix mesh wall/gran": "fix plate all mesh/surface file plate.stl type 2\n"
+                              "fix mesh all wall/gran model cgm tangential history mesh "
+                              "n_meshes 1 meshes plate\n",
         "compute pair/gran/local": "compute c all pair/gran/local id force\n"
                                    "dump l all local 100 l.dump c_c[1]\n",
     }

@@ -1,0 +1,46 @@
+#include "liggghts_plugins/engine/primitive_wall_loads.hpp"
+
+#include <atom.h>
+#include <fix_wall_gran.h>
+#include <primitive_wall.h>
+
+namespace gasgrain::plugins {
+
+namespace {
+
+using Column = Eigen::Map<Vec3>;
+using ConstColumn = Eigen::Map<const Vec3>;
+
+}  // namespace
+
+bool computes_loads_only(LAMMPS_NS::FixWallGran& wall) {
+  return !wall.is_mesh_wall() && !wall.store_force() && !wall.store_force_contact() &&
+         !wall.store_force_contact_stress() && !wall.store_sum_normal_force() &&
+         !wall.compute_wall_gran_local() && wall.heattransfer_flag() == 0 && !wall.fix_rigid();
+}
+
+void compute_wall_loads(std::vector<GrainLoad>& loads, LAMMPS_NS::FixWallGran& wall,
+                        LAMMPS_NS::Atom& atom, GrainLoop& loop) {
+  constexpr int no_virial = 0;
+  LAMMPS_NS::Fix& fix = wall;
+  fix.pre_force(no_virial);  // builds its neighbour list after a reneighbouring
+  int* near = nullptr;
+  const int count = wall.primitiveWall()->getNeighbors(near);
+  for (int n = 0; n < count; ++n) {
+    const int i = near[n];
+    Column(atom.x[i]) = ConstColumn(loop.grain(i).position);
+    Column(atom.v[i]) = ConstColumn(loop.grain(i).velocity);
+    Column(atom.omega[i]) = ConstColumn(loop.spin(i).velocity);
+    Column(atom.f[i]).setZero();
+    Column(atom.torque[i]).setZero();
+  }
+  fix.post_force(no_virial);
+  loads.clear();
+  for (int n = 0; n < count; ++n) {
+    const int i = near[n];
+    const ConstColumn force(atom.f[i]), torque(atom.torque[i]);
+    if (!force.isZero(0.0) || !torque.isZero(0.0)) loads.push_back({i, force, torque});
+  }
+}
+
+}  // namespace gasgrain::plugins

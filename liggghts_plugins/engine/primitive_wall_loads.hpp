@@ -1,0 +1,25 @@
+// Stock primitive walls in the fused engine: fix wall/gran computes its contacts itself, whatever
+// its model, on the few grains of its own neighbour list.
+//
+// The fix reads position, velocity and spin of these grains and adds to their force and torque; its
+// contact history stays with it. So only these grains are brought up to date in the atom arrays.
+#pragma once
+
+#include "liggghts_plugins/engine/grain_loop.hpp"
+
+namespace LAMMPS_NS {
+class Atom;
+class FixWallGran;
+}  // namespace LAMMPS_NS
+
+namespace gasgrain::plugins {
+
+// Whether this is all that the fix does in a step: no mesh, no stored forces, no heat.
+bool computes_loads_only(LAMMPS_NS::FixWallGran& wall);
+
+// Lets the fix compute the loads of the present positions; ascending grains. Overwrites state,
+// force and torque of its grains in the atom arrays.
+void compute_wall_loads(std::vector<GrainLoad>& loads, LAMMPS_NS::FixWallGran& wall,
+                        LAMMPS_NS::Atom& atom, GrainLoop& loop);
+
+}  // namespace gasgrain::plugins
