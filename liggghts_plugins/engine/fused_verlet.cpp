@@ -6,13 +6,10 @@
 #include <domain.h>
 #include <fix.h>
 #include <force.h>
-#include <lammps.h>
 #include <modify.h>
 #include <mpi.h>
-#include <neigh_list.h>
 #include <neighbor.h>
 #include <output.h>
-#include <pair_gran.h>
 #include <signal_handling.h>
 #include <timer.h>
 #include <update.h>
@@ -25,8 +22,6 @@
 #include "liggghts_plugins/contact_statistics.hpp"
 #include "liggghts_plugins/engine/engine_mode.hpp"
 #include "liggghts_plugins/engine/primitive_wall_loads.hpp"
-#include "liggghts_plugins/fix_wall_sdf.h"
-#include "liggghts_plugins/pair_gran_cgm.hpp"
 #include "liggghts_plugins/private_member.hpp"
 
 namespace gasgrain::plugins {
@@ -189,7 +184,7 @@ double FusedVerlet::largest_of_ranks(double value) const {
 double FusedVerlet::displacement_since_build() const {
   double largest = 0.0;
   for (int i = 0; i < static_cast<int>(built_at_.size()); ++i) {
-    const ConstColumn position(const_cast<GrainLoop&>(loop_).grain(i).position);
+    const ConstColumn position(loop_.grain(i).position);
     largest = std::max(largest, (position - built_at_[i]).squaredNorm());
   }
   return largest_of_ranks(std::sqrt(largest));
@@ -244,29 +239,19 @@ FusedVerlet::StepEnd FusedVerlet::who_looks_at_the_end() const {
 
 void FusedVerlet::force_pass(StepEnd end) {
   const bool goes_on = end != StepEnd::closed;
-  const double step = update->dt, half_kick = 0.5 * step * force->ftm2v;
+  const double half_kick = 0.5 * update->dt * force->ftm2v;
   const Vec3* held = plan_.held_force ? plan_.held_force->held_forces() : nullptr;
-  const PassSettings settings{.slip = {History::advance, step},
+  const PassSettings settings{.slip = {History::advance, update->dt},
                               .kick = goes_on ? 2.0 * half_kick : half_kick,
-                              .drift = goes_on ? step : 0.0,
+                              .drift = goes_on ? update->dt : 0.0,
                               .gravity = plan_.acceleration,
                               .held_forces = held};
   loop_.outside_loads().resize(plan_.primitive_walls.size());
   for (std::size_t w = 0; w < plan_.primitive_walls.size(); ++w)
     compute_wall_loads(loop_.outside_loads()[w], *plan_.primitive_walls[w], *atom, loop_);
+
   const GrainLoop::Observer show = [&](int i, const LoadRecord& load) {
-    const GrainRecord& grain = loop_.grain(i);
-    const SpinRecord& spin = loop_.spin(i);
-    Vec3 f = ConstColumn(load.force);
-    if (held) f += held[i];
-    const ConstColumn torque(load.torque);
-    Column(atom->f[i]) = f;
-    Column(atom->torque[i]) = torque;
-    Column(atom->x[i]) = ConstColumn(grain.position);
-    Column(atom->v[i]) =
-        ConstColumn(grain.velocity) + half_kick * (grain.inverse_mass * f + plan_.acceleration);
-    Column(atom->omega[i]) =
-        ConstColumn(spin.velocity) + (half_kick * spin.inverse_inertia) * torque;
+    show_grain(i, load, held, half_kick);
   };
   loop_.force_pass(settings, end != StepEnd::passed ? &show : nullptr);
   histories_are_ours_ = true;
@@ -288,93 +273,6 @@ void FusedVerlet::end_step() {
   store_histories();
   output->write(update->ntimestep);
   timer->stamp(TIME_OUTPUT);
-}
-
-void FusedVerlet::load_grains() {
-  const GrainCounts counts{atom->nlocal, atom->nghost};
-  loop_.start(counts, plan_.pair->tangential(), plan_.pair->contacts());
-  load_state();
-  load_pairs();
-  loop_.walls().clear();
-  for (FixWallSdf* wall : plan_.walls) loop_.walls().emplace_back(*wall);
-  loop_.finish_loading(neighbor->skin);
-  ghosts_.load(*lmp);
-  built_at_.resize(counts.local);
-  for (int i = 0; i < counts.local; ++i) built_at_[i] = ConstColumn(atom->x[i]);
-  moved_ = 0.0;
-  reneighbour_next_ = false;
-  histories_are_ours_ = false;
-}
-
-void FusedVerlet::load_state() {
-  const int total = atom->nlocal + atom->nghost;
-  for (int i = 0; i < total; ++i)
-    loop_.set_grain(i, {.position = atom->x[i],
-                        .velocity = atom->v[i],
-                        .spin = atom->omega[i],
-                        .radius = atom->radius[i],
-                        .mass = atom->rmass[i],
-                        .type = atom->type[i]});
-}
-
-// LIGGGHTS's list holds every pair once, with the smaller index first, and all grains in order.
-void FusedVerlet::load_pairs() {
-  const auto& gran = static_cast<const LAMMPS_NS::PairGran&>(*force->pair);
-  const LAMMPS_NS::NeighList& list = *gran.list;
-  const int offset = plan_.pair->history_offset();
-  const LAMMPS_NS::NeighList* histories = offset >= 0 ? list.listgranhistory : nullptr;
-  GASGRAIN_ASSERT(list.inum == atom->nlocal);
-  ContactList& pairs = loop_.pairs();
-  std::vector<TouchingPair> touching;
-  for (int i = 0; i < list.inum; ++i) {
-    GASGRAIN_ASSERT(list.ilist[i] == i);
-    for (int n = 0; n < list.numneigh[i]; ++n) {
-      const int j = list.firstneigh[i][n] & NEIGHMASK;
-      GASGRAIN_ASSERT(j > i);
-      pairs.add_candidate(j);
-      if (histories && histories->firstneigh[i][n]) {
-        const double* spring = histories->firstdouble[i] + 3 * n + offset;
-        touching.push_back({pairs.row_begin(i) + n, {{spring[0], spring[1], spring[2]}, 0.0}});
-      }
-    }
-    pairs.end_row();
-  }
-  pairs.set_touching(std::move(touching));
-}
-
-void FusedVerlet::store_state(int from) {
-  const int total = loop_.counts().total();
-  for (int i = from; i < total; ++i) {
-    Column(atom->x[i]) = ConstColumn(loop_.grain(i).position);
-    Column(atom->v[i]) = ConstColumn(loop_.grain(i).velocity);
-    Column(atom->omega[i]) = ConstColumn(loop_.spin(i).velocity);
-  }
-}
-
-void FusedVerlet::store_histories() {
-  if (!histories_are_ours_) return;
-  histories_are_ours_ = false;
-  for (const WallContacts& wall : loop_.walls()) wall.store();
-  // Pair::compute() sets this flag: the list is newer than what fix contacthistory holds
-  int dimension = 0;
-  *static_cast<int*>(force->pair->extract("computeflag", dimension)) = 1;
-  const int offset = plan_.pair->history_offset();
-  if (offset < 0) return;
-  const LAMMPS_NS::NeighList& histories =
-      *static_cast<const LAMMPS_NS::PairGran&>(*force->pair).list->listgranhistory;
-  ContactList& pairs = loop_.pairs();
-  const std::vector<TouchingPair>& touching = pairs.touching();
-  auto pair = touching.begin();
-  for (int i = 0; i < loop_.counts().local; ++i) {
-    const int begin = pairs.row_begin(i), count = pairs.row_end(i) - begin;
-    std::fill_n(histories.firstneigh[i], count, 0);
-    std::fill_n(histories.firstdouble[i], 3 * count, 0.0);
-    for (; pair != touching.end() && pair->candidate < begin + count; ++pair) {
-      const int n = pair->candidate - begin;
-      histories.firstneigh[i][n] = touching_flags();
-      std::copy_n(pair->spring.displacement, 3, histories.firstdouble[i] + 3 * n + offset);
-    }
-  }
 }
 
 }  // namespace gasgrain::plugins

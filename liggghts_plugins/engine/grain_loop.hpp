@@ -10,7 +10,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "liggghts_plugins/contact_statistics.hpp"
@@ -66,6 +65,7 @@ class GrainLoop {
 
   GrainCounts counts() const { return counts_; }
   GrainRecord& grain(int i) { return grains_[i]; }
+  const GrainRecord& grain(int i) const { return grains_[i]; }
   SpinRecord& spin(int i) { return spins_[i]; }
 
   // Tells that all grains, ghosts too, moved by at most this, m. Kept for the near pairs and walls.
