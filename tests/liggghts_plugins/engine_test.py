@@ -13,8 +13,8 @@ import time
 import unittest
 
 import bed_of_grains as bed
-from liggghts_run import (ENVIRONMENT, GASGRAIN, MPIEXEC, Bench, Grain, cgm_properties, data_file, dump_command,
-                          largest_difference, preamble, thermo)
+from liggghts_run import (ENVIRONMENT, GASGRAIN, MPIEXEC, Bench, Grain, cgm_properties, data_file,
+                          dump_command, largest_difference, preamble, thermo)
 
 SPEED = 0.5  # m/s
 RADIUS = bed.RADIUS
@@ -87,7 +87,8 @@ class EngineTest(unittest.TestCase):
 
 
 class SameMotion(EngineTest):
-    def check(self, scene_text, scene_files, ranks=1, rest=None, limits=((300, 1e-10), (1000, 1e-8))):
+    def check(self, scene_text, scene_files, ranks=1, rest=None,
+              limits=((300, 1e-10), (1000, 1e-8))):
         rest = rest or dump_command("d", 100) + "run 1000\n"
         reference, fused, _ = self.off_and_fused(scene_text, rest, scene_files, ranks)
         return self.assert_same_motion(reference, fused, limits)
@@ -245,8 +246,9 @@ class HandingOver(EngineTest):
         self.assertLess(largest_difference(others, frames, scale), 1e-8)
 
     def test_steps_with_pressure(self):
-        """Pressure needs the stock pair style in those steps; before and after them we are fused."""
-        rest = ("compute p all pressure thermo_temp virial\n" + thermo_of("c_p") + dump_command("d", 50) + "run 500\n")
+        """Pressure needs the stock pair style in its steps; before and after them we are fused."""
+        rest = ("compute p all pressure thermo_temp virial\n" + thermo_of("c_p") +
+                dump_command("d", 50) + "run 500\n")
         reference, fused, _ = self.off_and_fused(scene(), rest, files(crowd()))
         self.assert_same_motion(reference, fused, ((300, 1e-10), (500, 1e-9)), every=50)
         rows = [row for row in thermo(reference_log(reference)) if len(row) == 4]
