@@ -2,7 +2,7 @@
 // the fused time integrator.
 #pragma once
 
-namespace LAMMPS_NS {
+namespace LAMMPS_NS {  // NOLINT(readability-identifier-naming): the name of LIGGGHTS
 class LAMMPS;
 }
 

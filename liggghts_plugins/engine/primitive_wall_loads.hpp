@@ -7,7 +7,7 @@
 
 #include "liggghts_plugins/engine/grain_loop.hpp"
 
-namespace LAMMPS_NS {
+namespace LAMMPS_NS {  // NOLINT(readability-identifier-naming): the name of LIGGGHTS
 class Atom;
 class FixWallGran;
 }  // namespace LAMMPS_NS

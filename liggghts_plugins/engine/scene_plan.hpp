@@ -7,7 +7,7 @@
 #include "coupling/shared/vec3.hpp"
 #include "liggghts_plugins/engine/held_force.hpp"
 
-namespace LAMMPS_NS {
+namespace LAMMPS_NS {  // NOLINT(readability-identifier-naming): the name of LIGGGHTS
 class Fix;
 class FixWallGran;
 class LAMMPS;
