@@ -16,15 +16,15 @@ def fail(message):
     sys.exit(f"ERROR: {message}")
 
 
-def mpi_environment():
-    """Open MPI: allow root (containers) and more ranks than cores without spinning."""
+def mpi_environment(ranks):
+    """Open MPI: allow root (containers); more ranks than cores must not spin while they wait."""
     return dict(
         os.environ,
         OMPI_ALLOW_RUN_AS_ROOT="1",
         OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
         OMPI_MCA_rmaps_base_oversubscribe="1",
         OMPI_MCA_hwloc_base_binding_policy="none",
-        OMPI_MCA_mpi_yield_when_idle="1",
+        OMPI_MCA_mpi_yield_when_idle="1" if ranks > os.cpu_count() else "0",
         OMP_NUM_THREADS="1",
     )
 
@@ -48,7 +48,7 @@ def run_gasgrain(directory, script, ranks, variables):
     for name, value in variables.items():
         command += ["-var", name, f"{value:.10g}" if isinstance(value, float) else str(value)]
     sys.stdout.flush()
-    done = subprocess.run(command, cwd=directory, env=mpi_environment())
+    done = subprocess.run(command, cwd=directory, env=mpi_environment(ranks))
     if done.returncode != 0:
         fail(f"gasgrain ended with exit code {done.returncode}; see {directory}/log.liggghts")
 
@@ -59,6 +59,18 @@ def set_key(text, key, value):
     if count != 1:
         fail(f"case file holds {count} places '{key} = number', expected one")
     return changed
+
+
+def complete_summary(directory, change):
+    """Lets `change` edit the quantities (name -> quantity) of summary.json; returns them."""
+    path = pathlib.Path(directory) / "summary.json"
+    summary = json.loads(path.read_text())
+    quantities = {quantity["name"]: quantity for quantity in summary["quantities"]}
+    change(quantities)
+    new = path.with_suffix(".tmp")
+    new.write_text(json.dumps(summary, indent=1) + "\n")
+    new.replace(path)
+    return quantities
 
 
 def read_summary(directory):

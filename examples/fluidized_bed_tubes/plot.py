@@ -62,11 +62,16 @@ def draw_series(axes, series, column, mean, reference, start, scale):
     time = series["time"]
     axes.axvspan(start, time[-1], color="0.93", zorder=0)
     axes.plot(time, scale * series[column], color="C0", linewidth=0.9)
-    axes.plot([start, time[-1]], [scale * mean] * 2, color="C3", linewidth=1.4,
-              label=f"mean {scale * mean:.4g}")
+    # The first instants press the bed against nothing yet; what follows sets the range.
+    top = 1.25 * numpy.nanmax(series[column][time > 0.25 * start])
+    axes.set_ylim(0, scale * top)
+    if mean:
+        axes.plot([start, time[-1]], [scale * mean] * 2, color="C3", linewidth=1.4,
+                  label=f"mean {scale * mean:.4g}")
     value, text = reference
-    axes.axhline(scale * value, color="0.2", linewidth=1, linestyle="--",
-                 label=f"{text} {scale * value:.4g}")
+    if value:
+        axes.axhline(scale * value, color="0.2", linewidth=1, linestyle="--",
+                     label=f"{text} {scale * value:.4g}")
     axes.set_xlim(0, time[-1])
     axes.legend(loc="best", frameon=False, fontsize=8)
 
@@ -99,10 +104,10 @@ def draw(directory, picture, start):
 
     draw_series(pressure_axes, series, "pressure_drop", pressure["value"],
                 (balance["value"], "weight and buried tubes"), start, 1.0)
-    pressure_axes.set(ylabel="pressure drop / Pa", ylim=(0, None))
+    pressure_axes.set(ylabel="pressure drop / Pa")
     draw_series(height_axes, series, "bed_height", height["value"],
                 (height["reference"], "experiment"), start, 1e3)
-    height_axes.set(ylabel="bed height / mm", xlabel="time with gas / s", ylim=(0, None))
+    height_axes.set(ylabel="bed height / mm", xlabel="time with gas / s")
     figure.savefig(picture, dpi=130)
     pyplot.close(figure)
 

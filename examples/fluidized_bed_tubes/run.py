@@ -16,6 +16,7 @@ ORIGINAL_COUNT = 250_000 * 5**3  # the paper: 250 000 grains of ratio 5
 ORIGINAL_RADIUS = 50e-6  # m
 DENSITY = 2500.0  # kg/m^3
 RESTITUTION = 0.9
+MEASURED_HEIGHT = {0.2: 0.0917, 0.3: 0.0949}  # gas velocity in m/s -> bed height in m
 
 
 def contact_time(spring):
@@ -23,6 +24,31 @@ def contact_time(spring):
     mass = DENSITY * 4 / 3 * math.pi * ORIGINAL_RADIUS**3
     damping_ratio = -math.log(RESTITUTION) / math.hypot(math.pi, math.log(RESTITUTION))
     return math.pi * math.sqrt(mass / 2 / spring) / math.sqrt(1 - damping_ratio**2)
+
+
+def add_experiment(quantities, velocity):
+    """Reference of the bed height where there is one: the experiment of the paper."""
+    if velocity in MEASURED_HEIGHT:
+        quantities["bed_height_mean"].update(
+            reference=MEASURED_HEIGHT[velocity], tolerance=0.05,
+            source="experiment, Mori, Wu, Sakai, Powder Technology, 2019")
+
+
+def print_comparison(quantities):
+    print(f"\n{'quantity':<30}{'here':>10}{'reference':>11}{'deviation':>11}")
+    rows = (("mean bed height / mm", "bed_height_mean", 1e3, None),
+            ("mean pressure drop / Pa", "pressure_drop_mean", 1.0, "pressure_drop_force_balance"))
+    for label, name, scale, reference_name in rows:
+        value = quantities[name]["value"]
+        reference = (quantities[reference_name]["value"] if reference_name
+                     else quantities[name]["reference"])
+        if value is None:
+            continue
+        line = f"{label:<30}{scale * value:>10.4g}"
+        if reference:
+            line += f"{scale * reference:>11.4g}{100 * (value / reference - 1):>+10.1f} %"
+        print(line)
+    print("  (bed height: experiment of the paper; pressure drop: static estimate with buried tubes)")
 
 
 def options():
@@ -85,6 +111,9 @@ def main():
         "l": chosen.grain, "count": count, "k": chosen.spring, "dt": step, "time": chosen.time,
         "case": "gas.toml", "out": ".",
     })
+    quantities = common.complete_summary(
+        out, lambda summary: add_experiment(summary, chosen.velocity))
+    print_comparison(quantities)
     plot.draw(out, out / "result.png", start)
     print(f"\npicture   {out / 'result.png'}")
     print(f"fields    {out}/*.xdmf (open in ParaView)")
