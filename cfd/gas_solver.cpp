@@ -73,6 +73,7 @@ struct GasSolver::State {
   ImmersedBoundary immersed_boundary;
   Projection projection;
   VectorField velocity;
+  Vec3 speeds = Vec3::Zero();  // largest |u| per direction of all ranks, m/s
   Field pressure;
   Slope slope, old_slope;
   double time = 0.0, previous_dt = 0.0;
@@ -103,6 +104,7 @@ void GasSolver::State::set_velocity(const std::function<Vec3(const Vec3&)>& func
   }
   set_solid_faces(velocity, domain);
   fill_velocity_ghosts(domain, medium, velocity);
+  speeds = largest_speeds(domain, velocity);
   previous_dt = 0.0;
 }
 
@@ -162,7 +164,7 @@ StepReport GasSolver::advance(double dt) {
   StepReport report;
   MomentumBudget& budget = report.momentum;
   const AdamsBashforth weights = adams_bashforth(dt, s.previous_dt);
-  const double speed_before = largest_speeds(domain, s.velocity).maxCoeff();
+  const double speed_before = s.speeds.maxCoeff();
   const Field old_void_fraction = s.medium.cell_void_fraction;
 
   s.evaluate_slope();
@@ -190,9 +192,9 @@ StepReport GasSolver::advance(double dt) {
   report.pressure = projected.solve;
   report.removed_mean = projected.removed_mean;
   report.divergence = s.projection.divergence(s.medium, old_void_fraction, s.velocity, dt);
-  const Vec3 speeds = largest_speeds(domain, s.velocity);
-  report.largest_speed = speeds.maxCoeff();
-  report.courant_number = dt * speeds.cwiseQuotient(domain.spacing).maxCoeff();
+  s.speeds = largest_speeds(domain, s.velocity);
+  report.largest_speed = s.speeds.maxCoeff();
+  report.courant_number = dt * s.speeds.cwiseQuotient(domain.spacing).maxCoeff();
   budget.stored = gas_momentum(domain, s.medium, s.velocity) - momentum_before;
   budget.convection =
       momentum_with_new_void - momentum_before +
@@ -239,7 +241,7 @@ void GasSolver::accept_void_fraction_as_old() {
 }
 
 double GasSolver::largest_stable_step() const {
-  return cfd::largest_stable_step(state_->domain, state_->velocity,
+  return cfd::largest_stable_step(state_->domain, state_->speeds,
                                   state_->gas_case.numerics.courant_number);
 }
 

@@ -45,15 +45,14 @@ Vec3 largest_speeds(const GasDomain& domain, const VectorField& velocity) {
   return largest;
 }
 
-double largest_stable_step(const GasDomain& domain, const VectorField& velocity,
+double largest_stable_step(const GasDomain& domain, const Vec3& largest_speeds,
                            double courant_number) {
   const double nu = domain.gas.viscosity / domain.gas.density;
-  const Vec3 speeds = largest_speeds(domain, velocity);
   double step = std::numeric_limits<double>::infinity();
   for (int d = 0; d < 3; ++d) {
     const double h = domain.spacing[d];
     const double gravity = domain.solved[d] ? std::abs(domain.gas.gravity[d]) : 0.0;
-    step = std::min(step, transport_step(speeds[d], gravity, courant_number * h));
+    step = std::min(step, transport_step(largest_speeds[d], gravity, courant_number * h));
     if (domain.varies[d] && nu > 0.0) {
       step = std::min(step, largest_diffusion_number * h * h / nu);
     }

@@ -22,7 +22,7 @@ Vec3 largest_speeds(const GasDomain& domain, const VectorField& velocity);
 // Largest step that keeps nu dt / h^2 <= 1/12 in every direction that varies, and the Courant
 // number below `courant_number` even after gravity has acted on the gas for the step, s. Infinite
 // when nothing limits it. Collective.
-double largest_stable_step(const GasDomain& domain, const VectorField& velocity,
+double largest_stable_step(const GasDomain& domain, const Vec3& largest_speeds,
                            double courant_number);
 
 }  // namespace gasgrain::cfd

@@ -25,25 +25,14 @@ std::string output_directory(const cfd::Output& output, const std::string& direc
   return directory.empty() ? output.directory : directory;
 }
 
-// Unless the case file prescribes the gas blocks, they follow the DEM code's: where the grains are
-// balanced over the ranks, mapping and exchange are too, and most grains stay on their rank.
-cfd::Index3 gas_ranks(const cfd::Index3& prescribed, const cfd::Index3& dem,
-                      const cfd::Index3& cells) {
-  const bool chosen = prescribed[0] * prescribed[1] * prescribed[2] > 0;
-  const bool fits = dem[0] <= cells[0] && dem[1] <= cells[1] && dem[2] <= cells[2];
-  return chosen || !fits ? prescribed : dem;
-}
-
 }  // namespace
 
-CoupledRun::Case CoupledRun::read_case(const std::string& case_file, const DemHost& host) {
+CoupledRun::Case CoupledRun::read_case(const std::string& case_file) {
   const ConfigTable file = ConfigTable::parse_file(case_file);
   Case settings;
   settings.gas = cfd::read_gas_case(file);
   settings.options = read_coupling_options(file.table_or_empty("coupling"), settings.gas.gas);
   file.reject_unknown_keys();
-  settings.gas.numerics.ranks =
-      gas_ranks(settings.gas.numerics.ranks, host.rank_grid(), settings.gas.grid.cells);
   if (settings.gas.fixed_bed.present) {
     file.fail("fixed_bed", "cannot be combined with grains; remove it or use gasgrain-gas");
   }
@@ -52,7 +41,7 @@ CoupledRun::Case CoupledRun::read_case(const std::string& case_file, const DemHo
 
 CoupledRun::CoupledRun(const std::string& case_file, const std::string& directory, DemHost& host,
                        MPI_Comm communicator)
-    : CoupledRun(read_case(case_file, host), directory, host, communicator) {}
+    : CoupledRun(read_case(case_file), directory, host, communicator) {}
 
 CoupledRun::CoupledRun(const Case& settings, const std::string& directory, DemHost& host,
                        MPI_Comm communicator)

@@ -61,7 +61,7 @@ class CoupledRun {
     cfd::GasCase gas;
     CouplingOptions options;
   };
-  static Case read_case(const std::string& case_file, const DemHost& host);
+  static Case read_case(const std::string& case_file);
 
   CoupledRun(const Case& settings, const std::string& directory, DemHost& host,
              MPI_Comm communicator);

@@ -2,7 +2,6 @@
 // LIGGGHTS.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -37,8 +36,7 @@ class DemHost {
  public:
   virtual ~DemHost() = default;
 
-  virtual std::array<int, 3> rank_grid() const = 0;  // ranks per direction
-  virtual double step() const = 0;                   // s
+  virtual double step() const = 0;   // s
   virtual Vec3 gravity() const = 0;  // m/s^2; known from the set-up of the first run on
   virtual RunProgress progress() const = 0;
   // IDs of walls whose force nobody measures.

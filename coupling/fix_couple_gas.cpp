@@ -190,10 +190,6 @@ double FixCoupleGas::memory_usage() {
   return double(held_.size() * sizeof(Vec3));
 }
 
-std::array<int, 3> FixCoupleGas::rank_grid() const {
-  return {comm->procgrid[0], comm->procgrid[1], comm->procgrid[2]};
-}
-
 double FixCoupleGas::step() const {
   return update->dt;
 }

@@ -54,7 +54,6 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
   bool end_of_step_uses_atoms() const override { return run_->exchange_due(); }
 
  private:
-  std::array<int, 3> rank_grid() const override;
   double step() const override;
   Vec3 gravity() const override;
   RunProgress progress() const override;

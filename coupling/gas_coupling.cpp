@@ -3,11 +3,10 @@
 //
 //   1  the grains' data go to the ranks that own their cells
 //   2  eps = 1 - D V at the grains' new places
-//   3  B = beta V / (1 - eps) per grain with eps and u gathered by D^T; u of the interval's start
-//   4  D B and D (B v) go to the gas
-//   5  the gas advances over the interval, with B (u - v) implicit
-//   6  F = B (u - v) - V grad p with u and grad p gathered by D^T
-//   7  the forces go back and are held over the next interval
+//   3  B = beta V / (1 - eps) per grain with eps and u gathered by D^T; u as the grains felt it
+//   last 4  D B and D (B v) go to the gas 5  the gas advances over the interval, with B (u - v)
+//   implicit 6  F = B (u - v) - V grad p with u and grad p gathered by D^T 7  the forces go back
+//   and are held over the next interval
 //
 // D spreads and D^T gathers with one set of weights, and the solver spreads cell values to faces
 // with the shares by which it samples faces at cells. So sum F_drag dt is the momentum that the gas
@@ -65,9 +64,15 @@ GasCoupling::GasCoupling(const cfd::GasCase& gas_case, const CouplingOptions& op
       deposition_(gas_.decomposition(), gas_.walls()),
       transfer_(gas_.decomposition()),
       void_fraction_(gas_.decomposition().block().size, 1.0) {
+  const cfd::WallGeometry& walls = gas_.walls();
   for (int d = 0; d < 3; ++d) {
     velocity_[d] = cfd::Field(gas_.decomposition().block().size);
     pressure_gradient_[d] = cfd::Field(gas_.decomposition().block().size);
+    cfd::for_each_cell(void_fraction_.size(), [&](int i, int j, int k) {
+      const double free =
+          walls.lower_share[d](i, j, k) + walls.upper_share[d](i, j, k) + walls.host[d](i, j, k);
+      if (free == 0 && deposition_.open_fraction()(i, j, k) > 0) has_closed_cells_[d] = true;
+    });
   }
   if (options_.kernel_width > 0) {
     kernel_width_ = options_.kernel_width;
@@ -81,9 +86,9 @@ ExchangeReport GasCoupling::begin(std::span<Vec3> forces, std::span<const GrainR
   deposit_void_fraction();
   gas_.grains().void_fraction = void_fraction_;
   gas_.accept_void_fraction_as_old();
+  gas_.sample_at_cells(velocity_, pressure_gradient_);
   evaluate_drag();
   deposit_drag();
-  gas_.sample_at_cells(velocity_, pressure_gradient_);
   gather_forces();
   transfer_.return_to_senders(forces, forces_);
   measure(0.0);
@@ -150,7 +155,6 @@ void GasCoupling::deposit_void_fraction() {
 
 void GasCoupling::evaluate_drag() {
   const std::vector<GrainRecord>& grains = transfer_.received();
-  gas_.sample_at_cells(velocity_, pressure_gradient_);
   std::vector<std::array<double, 4>> gathered(grains.size());
   deposition_.gather<4>(gathered, {&void_fraction_, &velocity_[0], &velocity_[1], &velocity_[2]});
   coefficients_.assign(grains.size(), 0.0);
@@ -221,6 +225,7 @@ void GasCoupling::add_drag_on_walls(double interval) {
   const cfd::Index3 size = gas_.decomposition().block().size;
   const double volume = gas_.decomposition().grid().cell_volume();
   for (int d = 0; d < 3; ++d) {
+    if (!has_closed_cells_[d]) continue;
     double force = 0;
     cfd::for_each_cell(size, [&](int i, int j, int k) {
       const std::ptrdiff_t n = void_fraction_.index(i, j, k);

@@ -58,6 +58,7 @@ class GasCoupling {
 
   // Cells.
   cfd::Field void_fraction_;                       // at the end of the interval
+  std::array<bool, 3> has_closed_cells_{};         // open cells of this rank without a free face
   cfd::VectorField velocity_, pressure_gradient_;  // as the grains see them: means over gas steps
   ExchangeReport report_;                          // of the exchange under way, this rank's part
 };

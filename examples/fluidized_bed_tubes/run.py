@@ -16,6 +16,7 @@ ORIGINAL_COUNT = 250_000 * 5**3  # the paper: 250 000 grains of ratio 5
 ORIGINAL_RADIUS = 50e-6  # m
 DENSITY = 2500.0  # kg/m^3
 RESTITUTION = 0.9
+START_UP = 0.3  # s: the packed bed rises as a plug before it bubbles
 MEASURED_HEIGHT = {0.2: 0.0917, 0.3: 0.0949}  # gas velocity in m/s -> bed height in m
 
 
@@ -57,9 +58,9 @@ def options():
                         help="coarse-grain ratio l; the paper takes 5 (default %(default)g)")
     parser.add_argument("--velocity", type=float, default=0.2, metavar="U",
                         help="superficial gas velocity, m/s; the paper takes 0.2 and 0.3 (default %(default)g)")
-    parser.add_argument("--time", type=float, default=0.9, metavar="T",
-                        help="simulated time with gas, s; means are taken over the last 60 %% (default %(default)g)")
-    parser.add_argument("--spring", type=float, default=0.5, metavar="K",
+    parser.add_argument("--time", type=float, default=0.8, metavar="T",
+                        help="simulated time with gas, s; means leave out the first 0.3 s (default %(default)g)")
+    parser.add_argument("--spring", type=float, default=0.25, metavar="K",
                         help="spring constant of the original particle, N/m; the paper takes 50 (default %(default)g)")
     parser.add_argument("--gas-step", type=float, default=1e-4, metavar="S",
                         help="largest gas step, s (default %(default)g)")
@@ -89,7 +90,7 @@ def main():
     duration = contact_time(chosen.spring)
     step = float(f"{duration / 8:.3g}")
     count = round(ORIGINAL_COUNT / chosen.grain**3)
-    start = 0.4 * chosen.time
+    start = min(START_UP, 0.5 * chosen.time)
     print("Fluidized bed with four tubes, 50 x 10 x 200 mm, gas cells of 1.25 mm")
     print(f"  grains         {count} of {2e3 * ORIGINAL_RADIUS * chosen.grain:g} mm "
           f"(l = {chosen.grain:g}) for {ORIGINAL_COUNT / 1e6:g} million of 0.1 mm")
