@@ -46,7 +46,7 @@ Convection read_convection(const ConfigTable& table) {
 
 Numerics read_numerics(const ConfigTable& table) {
   expect_only(table, {"convection", "pressure_solver", "pressure_tolerance", "pressure_iterations",
-                      "courant_number", "ranks"});
+                      "courant_number", "largest_step", "ranks"});
   Numerics n;
   n.convection = read_convection(table);
   const std::string solver =
@@ -58,6 +58,7 @@ Numerics read_numerics(const ConfigTable& table) {
       "pressure_iterations", n.pressure_iterations, {.lower = 1, .upper = 100000}));
   n.courant_number = table.number_or("courant_number", n.courant_number,
                                      {.lower = 0.0, .upper = 0.25, .lower_open = true});
+  n.largest_step = table.number_or("largest_step", n.largest_step, Range::positive());
   if (table.has("ranks")) n.ranks = table.integers3("ranks", {.lower = 1, .upper = 1e6});
   return n;
 }

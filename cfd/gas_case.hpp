@@ -1,6 +1,7 @@
 // Everything a gas case file states: docs/case_file.md.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ struct Numerics {
   double pressure_tolerance = 1e-6;  // residual over right-hand side, 2-norm
   int pressure_iterations = 200;     // largest number of CG iterations
   double courant_number = 0.25;      // largest |u| dt / dx
-  Index3 ranks{0, 0, 0};             // blocks per direction; 0 = choose
+  double largest_step = std::numeric_limits<double>::infinity();  // s
+  Index3 ranks{0, 0, 0};  // blocks per direction; 0 = choose
 };
 
 // Initial and, for the stand-alone solver, imposed state.

@@ -22,6 +22,7 @@
 // too low by 1/(1 + K) (only 2) or the step limited to 2 eps rho / beta (explicit).
 #include "cfd/gas_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -241,8 +242,9 @@ void GasSolver::accept_void_fraction_as_old() {
 }
 
 double GasSolver::largest_stable_step() const {
-  return cfd::largest_stable_step(state_->domain, state_->speeds,
-                                  state_->gas_case.numerics.courant_number);
+  const Numerics& numerics = state_->gas_case.numerics;
+  return std::min(numerics.largest_step, cfd::largest_stable_step(state_->domain, state_->speeds,
+                                                                  numerics.courant_number));
 }
 
 void GasSolver::sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const {

@@ -76,7 +76,7 @@ class GasSolver {
   // finite; the message says the time, the largest velocity and the step.
   StepReport advance(double dt);
 
-  // Largest step that the viscous and Courant limits allow now, s.
+  // Largest step that the viscous and Courant limits and numerics.largest_step allow now, s.
   double largest_stable_step() const;
   double time() const;  // s
 

@@ -142,7 +142,7 @@ void CoupledRun::audit() {
 }
 
 void CoupledRun::choose_next_interval() {
-  interval_ = choose_interval(row_.exchange.limits, host_.step(), case_.options.gas_step);
+  interval_ = choose_interval(row_.exchange.limits, host_.step(), case_.options.exchange_interval);
 }
 
 void CoupledRun::write_outputs(double time) {

@@ -33,7 +33,8 @@ CouplingInterval shortest(std::initializer_list<Candidate> candidates, double de
 CouplingInterval choose_interval(const IntervalLimits& limits, double dem_step, double requested) {
   GASGRAIN_ASSERT(dem_step > 0);
   if (requested > 0) {
-    return shortest({{requested, "gas_step"}, {stable_share * limits.exchange, "drag"}}, dem_step);
+    return shortest({{requested, "exchange_interval"}, {stable_share * limits.exchange, "drag"}},
+                    dem_step);
   }
   return shortest({{limits.grain_motion, "grain motion"},
                    {accurate_share * limits.exchange, "drag"},

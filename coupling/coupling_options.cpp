@@ -16,7 +16,7 @@ CouplingOptions read_coupling_options(const ConfigTable& table, const cfd::GasPr
   options.feedback = table.choice_or("feedback", "two-way", {"two-way", "one-way"}) == "two-way"
                          ? Feedback::two_way
                          : Feedback::one_way;
-  options.gas_step = table.number_or("gas_step", 0.0, Range::positive());
+  options.exchange_interval = table.number_or("exchange_interval", 0.0, Range::positive());
   options.kernel_width = table.number_or("kernel_width", 0.0, Range::positive());
   options.average_from = table.number_or("average_from", 0.0, Range::non_negative());
   options.series_interval = table.number_or("series_interval", 0.0, Range::positive());

@@ -18,7 +18,7 @@ struct CouplingOptions {
   std::string drag_name = "gidaspow";
   DragOptions drag;
   Feedback feedback = Feedback::two_way;
-  double gas_step = 0.0;      // s, requested interval between exchanges; 0 = from the limits
+  double exchange_interval = 0.0;  // s, requested interval between exchanges; 0 = from the limits
   double kernel_width = 0.0;  // m, standard deviation of the deposition kernel; 0 = from dx and d
   double average_from = 0.0;  // s of gas time: start of the time means
   double series_interval = 0.0;    // s of gas time between rows; 0 = a tenth of the frames'

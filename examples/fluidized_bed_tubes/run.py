@@ -88,22 +88,24 @@ def main():
         (out / old).unlink(missing_ok=True)
 
     duration = contact_time(chosen.spring)
-    step = float(f"{duration / 8:.3g}")
+    exchange = 2 * chosen.gas_step
+    step = exchange / math.ceil(exchange / (duration / 8))  # whole steps between exchanges
     count = round(ORIGINAL_COUNT / chosen.grain**3)
     start = min(START_UP, 0.5 * chosen.time)
     print("Fluidized bed with four tubes, 50 x 10 x 200 mm, gas cells of 1.25 mm")
     print(f"  grains         {count} of {2e3 * ORIGINAL_RADIUS * chosen.grain:g} mm "
           f"(l = {chosen.grain:g}) for {ORIGINAL_COUNT / 1e6:g} million of 0.1 mm")
-    print(f"  gas velocity   {chosen.velocity:g} m/s, gas step at most {chosen.gas_step:g} s")
+    print(f"  gas velocity   {chosen.velocity:g} m/s, "
+          f"gas step at most {chosen.gas_step:g} s, exchange with the grains every {exchange:g} s")
     print(f"  spring         {chosen.spring:g} N/m (paper: 50), contact time {duration:.3g} s, "
-          f"step {step:g} s = contact time / {duration / step:.1f}")
+          f"step {step:.4g} s = contact time / {duration / step:.1f}")
     print(f"  time           {chosen.time:g} s with gas, averaged from {start:g} to {chosen.time:g} s")
     print(f"  ranks          {chosen.ranks}")
     print(f"  results        {out}\n")
 
     case = (HERE / "gas.toml").read_text()
-    for key, value in (("superficial_velocity", chosen.velocity), ("gas_step", chosen.gas_step),
-                       ("average_from", start)):
+    for key, value in (("superficial_velocity", chosen.velocity), ("exchange_interval", exchange),
+                       ("largest_step", chosen.gas_step), ("average_from", start)):
         case = common.set_key(case, key, value)
     (out / "gas.toml").write_text(case)
     (out / "bed.in").write_text((HERE / "bed.in").read_text())

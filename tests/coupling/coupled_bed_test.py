@@ -27,7 +27,7 @@ class CoupledBed(unittest.TestCase):
         # a few exchanges, before rounding errors of the grains' contacts have grown
         reference = None
         for ranks in bed.ranks_to_test():
-            bench = bed.bench(bed.case(coupling="gas_step = 6e-5", interval=1e-5))
+            bench = bed.bench(bed.case(coupling="exchange_interval = 6e-5", interval=1e-5))
             bench.run(bed.script("run 30"), ranks=ranks)
             rows = bed.series(bench.directory)
             self.assertEqual(len(rows), 6)
@@ -106,13 +106,13 @@ class BadInput(unittest.TestCase):
         self.assert_fails(["x.toml", "cannot read"], script=script)
 
     def test_unknown_key_suggests_the_nearest(self):
-        self.assert_fails(["coupling.gas_stp", "gas_step"], bed.case(coupling="gas_stp = 1e-4"))
+        self.assert_fails(["coupling.exchange_intervl", "exchange_interval"], bed.case(coupling="exchange_intervl = 1e-4"))
 
     def test_unknown_drag_law(self):
         self.assert_fails(["coupling.drag", "gidaspow"], bed.case(coupling='drag = "ergn"'))
 
     def test_value_out_of_range(self):
-        self.assert_fails(["coupling.gas_step", "-1"], bed.case(coupling="gas_step = -1"))
+        self.assert_fails(["coupling.exchange_interval", "-1"], bed.case(coupling="exchange_interval = -1"))
 
     def test_unknown_keyword_of_the_fix(self):
         script = bed.script("run 10").replace("out out", "output out")

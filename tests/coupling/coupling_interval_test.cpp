@@ -17,7 +17,7 @@ TEST(CouplingInterval, takes_the_least_limit) {
 
 TEST(CouplingInterval, names_the_limit) {
   EXPECT_EQ(choose_interval({1e-4, 1.0, 1.0}, 1e-6, 0.0).limited_by, "grain motion");
-  EXPECT_EQ(choose_interval({1.0, 1.0, 1.0}, 1e-6, 1e-4).limited_by, "gas_step");
+  EXPECT_EQ(choose_interval({1.0, 1.0, 1.0}, 1e-6, 1e-4).limited_by, "exchange_interval");
 }
 
 TEST(CouplingInterval, is_a_whole_number_of_steps_below_the_limit) {

@@ -341,7 +341,7 @@ y_upper = {{type = "slip"}}
 [numerics]
 pressure_tolerance = 1e-12
 [coupling]
-gas_step = 5e-5
+exchange_interval = 5e-5
 """
 
 
