@@ -4,6 +4,7 @@
 #include "cfd/wall_geometry.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include "cfd/gas_regions.hpp"
 #include "cfd/halo_exchange.hpp"
@@ -37,6 +38,7 @@ class GeometryBuilder {
   WallGeometry build() {
     allocate();
     check_bodies_reach_into_grid();
+    check_bodies_are_resolved();
     sample_cells();
     for (int d = 0; d < 3; ++d) sample_faces(d);
     close_faces_of_solid_cells();
@@ -51,6 +53,7 @@ class GeometryBuilder {
  private:
   void allocate();
   void check_bodies_reach_into_grid() const;
+  void check_bodies_are_resolved() const;
   void sample_cells();
   void sample_faces(int d);
   void close_faces_of_solid_cells();
@@ -116,6 +119,20 @@ void GeometryBuilder::check_bodies_reach_into_grid() const {
                       "' acts on the gas but no part of it is inside the gas grid; move it, extend "
                       "grid.lower and grid.upper, or give it acts_on = [\"grains\"]");
     }
+  }
+}
+
+// Fractions and the immersed boundary look at distances up to about two cells.
+void GeometryBuilder::check_bodies_are_resolved() const {
+  const double needed = 4.0 * half_cell_.maxCoeff();
+  for (const Body* body : bodies_) {
+    const double band = body->shape->resolved_range();
+    if (band >= needed) continue;
+    std::ostringstream message;
+    message << "body '" << body->name << "' is sampled with a band of " << band
+            << " m, but the gas needs at least two of its cells, " << needed
+            << " m; sample it again with a wider band (gasgrain-sdf --band)";
+    throw UserError(message.str());
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "cfd/open_fraction.hpp"
 #include "coupling/shared/error.hpp"
+#include "coupling/shared/sampling.hpp"
 #include "tests/cfd/gas_fixture.hpp"
 
 namespace gasgrain::cfd {
@@ -113,6 +114,29 @@ TEST(WallGeometry, a_body_outside_the_grid_is_a_user_error_that_names_it) {
   c.bodies =
       bodies("[[body]]\nname='far'\nacts_on=['grains']\nsphere={center=[3,0,0],radius=0.5}\n");
   EXPECT_FALSE(geometry(c).has_bodies);
+}
+
+TEST(WallGeometry, a_sampled_body_with_a_band_below_two_cells_is_a_user_error) {
+  GasCase c = testing::box_case(Vec3(1, 1, 1), {8, 8, 8});
+  c.bodies = bodies("[[body]]\nname='ball'\nsphere={center=[0.5,0.5,0.5],radius=0.25}\n");
+  const Shape exact = c.bodies[0].shape;
+  const auto sampled = [&](double band) {
+    return std::make_shared<SampledDistance>(sample_shape(*exact, {.lower = Vec3(0, 0, 0),
+                                                                   .upper = Vec3(1, 1, 1),
+                                                                   .spacing = 0.02,
+                                                                   .band = band,
+                                                                   .cut = false}));
+  };
+  c.bodies[0].shape = sampled(0.2);
+  try {
+    geometry(c);
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("'ball'"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("0.25"), std::string::npos);
+  }
+  c.bodies[0].shape = sampled(0.3);
+  EXPECT_TRUE(geometry(c).has_bodies);
 }
 
 TEST(WallGeometry, a_body_that_fills_the_grid_is_a_user_error) {
