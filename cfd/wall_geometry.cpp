@@ -29,6 +29,11 @@ class GeometryBuilder {
         half_cell_(0.5 * decomposition.grid().spacing()) {
     for (const Body& body : bodies) {
       if (!body.acts_on_gas) continue;
+      if (body.motion.sweeps()) {
+        throw UserError("body '" + body.name +
+                        "' moves, but the gas knows resting shapes only; give it motion = "
+                        "{..., surface_only = true} or acts_on = [\"grains\"]");
+      }
       bodies_.push_back(&body);
       shapes_.push_back(body.shape);
     }
@@ -158,7 +163,7 @@ void GeometryBuilder::sample_faces(int d) {
       const DistanceSample sample = solid_->sample(centre);
       walls_.distance[d][n] = sample.distance;
       for (int e = 0; e < 3; ++e) walls_.normal[d][e][n] = sample.gradient[e];
-      walls_.wall_velocity[d][n] = nearest_body(centre).surface_velocity[d];
+      walls_.wall_velocity[d][n] = surface_velocity_at(nearest_body(centre), centre, 0.0)[d];
     }
     walls_.open_area[d][n] = open < sliver ? 0.0 : open > 1 - sliver ? 1.0 : open;
   });

@@ -27,13 +27,6 @@ Shape read_plane(const ConfigTable& table) {
   return make_shape(Plane{.point = table.vector("point"), .normal = direction(table, "normal")});
 }
 
-// Rotation by `angle` [rad] about a unit vector (Rodrigues).
-Mat3 rotation(const Vec3& axis, double angle) {
-  Mat3 cross;
-  cross << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
-  return Mat3::Identity() + std::sin(angle) * cross + (1 - std::cos(angle)) * cross * cross;
-}
-
 Shape read_box(const ConfigTable& table) {
   const Vec3 lower = table.vector("lower"), upper = table.vector("upper");
   if (!((upper - lower).minCoeff() > 0)) {
@@ -42,7 +35,7 @@ Shape read_box(const ConfigTable& table) {
   Box box{.center = 0.5 * (lower + upper), .half_size = 0.5 * (upper - lower)};
   if (table.has("rotation_angle") || table.has("rotation_axis")) {
     const double degrees = table.number("rotation_angle", {.lower = -360, .upper = 360});
-    box.axes = rotation(direction(table, "rotation_axis"), degrees * std::numbers::pi / 180);
+    box.axes = rotation_about(direction(table, "rotation_axis"), degrees * std::numbers::pi / 180);
   }
   return make_shape(box);
 }
@@ -207,16 +200,27 @@ Body read_body(const ConfigTable& table, ShapeFileLoader load_file) {
   if (body.name.empty()) table.fail("name", "is empty; every body needs a name");
   table.has("acts_on");  // known before a missing shape suggests the nearest key
   table.has("surface_velocity");
+  table.has("motion");
   for (const char* key : {"spacing", "lower", "upper", "band", "cut"}) table.has(key);
   body.shape = read_shape(table, load_file);
   read_acts_on(table, body);
   body.surface_velocity = table.vector_or("surface_velocity", Vec3::Zero());
+  if (table.has("motion")) body.motion = read_motion(table.table("motion"));
   sample_if_asked(table, body);
   table.reject_unknown_keys();
   return body;
 }
 
 }  // namespace
+
+Shape shape_at(const Body& body, double time) {
+  return body.motion.sweeps() ? move_shape(body.shape, body.motion.pose(time)) : body.shape;
+}
+
+Vec3 surface_velocity_at(const Body& body, const Vec3& x, double time) {
+  if (body.motion.is_at_rest()) return body.surface_velocity;
+  return body.motion.velocity_at(x, time) + body.motion.pose(time).rotation * body.surface_velocity;
+}
 
 std::vector<Body> read_bodies(const ConfigTable& case_file, ShapeFileLoader load_file) {
   std::vector<Body> bodies;

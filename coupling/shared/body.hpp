@@ -1,21 +1,30 @@
-// A named solid body: its shape, what it acts on and the velocity of its surface.
+// A named solid body: its shape, what it acts on and how it moves.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "coupling/shared/config_table.hpp"
+#include "coupling/shared/motion.hpp"
 #include "coupling/shared/signed_distance.hpp"
 
 namespace gasgrain {
 
 struct Body {
   std::string name;
-  Shape shape;
+  Shape shape;  // as it is before any motion
   bool acts_on_gas = true;
   bool acts_on_grains = true;
   Vec3 surface_velocity = Vec3::Zero();  // m/s; a wall that slides in its own plane (conveyor)
+  Motion motion;
 };
+
+// The body's shape where it is at `time` [s]; the shape itself when it never sweeps.
+Shape shape_at(const Body& body, double time);
+
+// Velocity of the body's surface at x [m], m/s: of the motion plus `surface_velocity`, which turns
+// with the body.
+Vec3 surface_velocity_at(const Body& body, const Vec3& x, double time);
 
 // Loads the SDF file named by `file = "x.h5"` of a body; supplied by coupling/files, so that this
 // leaf library stays free of HDF5.
