@@ -4,11 +4,13 @@
 #include <granular_wall.h>
 
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "coupling/shared/error.hpp"
 #include "liggghts_plugins/pair_gran_cgm.hpp"
 #include "liggghts_plugins/private_member.hpp"
+#include "liggghts_plugins/stock_pair_style.hpp"
 #include "liggghts_plugins/wall_gran_cgm.hpp"
 
 // LIGGGHTS's factory of contact model names. contact_models.h, which declares it, needs the lists
@@ -44,6 +46,14 @@ struct WallSelectors {
   friend Member private_member(WallSelectors);
 };
 
+using PairCreator = LIGGGHTS::PairStyles::IGranularPairStyle* (*)(LAMMPS_NS::LAMMPS*,
+                                                                  LAMMPS_NS::PairGran*, int64_t);
+
+struct PairStyleTable {
+  using Member = std::map<std::pair<std::string, int>, PairCreator> PairFactoryBase::*;
+  friend Member private_member(PairStyleTable);
+};
+
 namespace {
 
 using Names = LIGGGHTS::ContactModels::Factory;
@@ -59,14 +69,14 @@ int model_in(int64_t variant, Slot slot) {
   return static_cast<int>((variant >> (bits_per_model * slot)) & model_mask);
 }
 
-int64_t variant_of(TangentialModel model) {
+int64_t variant_of(TangentialModel model, int normal_identifier = cgm_identifier) {
   Names& names = Names::instance();
   int identifier = names.getTangentialModelId("off");
   if (model == TangentialModel::history) identifier = names.getTangentialModelId("history");
   if (model == TangentialModel::no_history) identifier = names.getTangentialModelId("no_history");
   return LIGGGHTS::Utils::generate_gran_hashcode(
-      cgm_identifier, identifier, names.getCohesionModelId("off"), names.getRollingModelId("off"),
-      names.getSurfaceModelId("default"));
+      normal_identifier, identifier, names.getCohesionModelId("off"),
+      names.getRollingModelId("off"), names.getSurfaceModelId("default"));
 }
 
 // LIGGGHTS's selection of the models a script names, with `model cgm` kept to what it implements:
@@ -94,8 +104,48 @@ LIGGGHTS::Walls::IGranularWall* create_wall(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::F
   return new WallGranCgm(lmp, parent, variant);
 }
 
+// Stock's own creators of the variants that observe_stock_styles() replaced.
+std::map<int, PairCreator>& stock_creators() {
+  static std::map<int, PairCreator> creators;
+  return creators;
+}
+
+LIGGGHTS::PairStyles::IGranularPairStyle* create_observed_pair(LAMMPS_NS::LAMMPS* lmp,
+                                                               LAMMPS_NS::PairGran* parent,
+                                                               int64_t variant) {
+  const PairCreator create = stock_creators().at(static_cast<int>(variant));
+  return new StockPairStyle(
+      *lmp, parent,
+      std::unique_ptr<LIGGGHTS::PairStyles::IGranularPairStyle>(create(lmp, parent, variant)));
+}
+
+// LIGGGHTS creates variants that it has not compiled specially by its variant without any model.
+int variant_without_models() {
+  Names& names = Names::instance();
+  return static_cast<int>(LIGGGHTS::Utils::generate_gran_hashcode(
+      names.getNormalModelId("off"), names.getTangentialModelId("off"),
+      names.getCohesionModelId("off"), names.getRollingModelId("off"), 0));
+}
+
+void observe_stock_styles(std::map<std::pair<std::string, int>, PairCreator>& table) {
+  const auto general = table.find({"gran", variant_without_models()});
+  for (const char* name : {"hooke", "hooke/stiffness", "hertz"}) {
+    for (const auto tangential :
+         {TangentialModel::off, TangentialModel::no_history, TangentialModel::history}) {
+      const int normal_identifier = Names::instance().getNormalModelId(name);
+      const int variant = static_cast<int>(variant_of(tangential, normal_identifier));
+      const auto special = table.find({"gran", variant});
+      const auto creator = special != table.end() ? special : general;
+      if (creator == table.end()) continue;
+      stock_creators()[variant] = creator->second;
+      table[{"gran", variant}] = create_observed_pair;
+    }
+  }
+}
+
 }  // namespace
 
+template struct GrantAccess<PairStyleTable, &PairFactoryBase::styleTable>;
 template struct GrantAccess<PairSelectors, &PairFactoryBase::variantSelectorTable>;
 template struct GrantAccess<WallSelectors, &WallFactoryBase::variantSelectorTable>;
 
@@ -108,6 +158,7 @@ void register_contact_model_cgm() {
 
   static bool registered = false;
   if (std::exchange(registered, true)) return;
+  observe_stock_styles(pairs.*private_member(PairStyleTable()));
   Names::instance().addNormalModel("cgm", cgm_identifier);
   for (const auto model :
        {TangentialModel::off, TangentialModel::no_history, TangentialModel::history}) {

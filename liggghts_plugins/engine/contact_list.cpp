@@ -119,7 +119,7 @@ void ContactList::set_touching(std::vector<TouchingPair> pairs) {
   touching_is_current_ = true;
 }
 
-void ContactList::add_contact_loads(int block, ContactBatch batch, TangentialModel model,
+void ContactList::add_contact_loads(int block, ContactBatch batch, const PairModel& model,
                                     bool uniform) {
   touching_is_current_ = false;
   const ContactKernel& kernel = contact_kernel();

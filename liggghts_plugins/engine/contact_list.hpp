@@ -52,7 +52,7 @@ class ContactList {
 
   int block_count() const { return static_cast<int>(near_begin_.size()) - 1; }
   // Finds the contacts of a block's grains and adds their loads.
-  void add_contact_loads(int block, ContactBatch batch, TangentialModel model, bool uniform);
+  void add_contact_loads(int block, ContactBatch batch, const PairModel& model, bool uniform);
 
  private:
   void keep_touching();

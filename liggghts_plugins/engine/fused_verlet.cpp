@@ -143,6 +143,7 @@ void FusedVerlet::open_step() {
   const double half = 0.5 * update->dt * force->ftm2v;
   double fastest = 0.0;
   for (int i = 0; i < atom->nlocal; ++i) {
+    if (loop_.is_fixed(i)) continue;
     GrainRecord& grain = loop_.grain(i);
     SpinRecord& spin = loop_.spin(i);
     Column velocity(grain.velocity);
@@ -260,7 +261,7 @@ void FusedVerlet::force_pass(StepEnd end) {
   if (plan_.held_force) plan_.held_force->held_forces_applied();
   if (end != StepEnd::passed) {
     store_state(atom->nlocal);  // ghosts
-    for (LAMMPS_NS::Fix* fix : plan_.gravity) fix->post_force(vflag);
+    for (LAMMPS_NS::Fix* fix : plan_.after_contacts) fix->post_force(vflag);
   }
   if (goes_on) note_drift(loop_.square_speed());
 }

@@ -25,7 +25,7 @@ using ConstColumn = Eigen::Map<const Vec3>;
 
 void FusedVerlet::load_grains() {
   const GrainCounts counts{atom->nlocal, atom->nghost};
-  loop_.start(counts, plan_.pair->tangential(), plan_.pair->contacts());
+  loop_.start(counts, *plan_.pair);
   load_state();
   load_pairs();
   loop_.walls().clear();
@@ -45,9 +45,11 @@ void FusedVerlet::load_state() {
     loop_.set_grain(i, {.position = atom->x[i],
                         .velocity = atom->v[i],
                         .spin = atom->omega[i],
-                        .radius = atom->radius[i],
-                        .mass = atom->rmass[i],
-                        .type = atom->type[i]});
+                        .contact = {.type = atom->type[i],
+                                    .mass = atom->rmass[i],
+                                    .radius = atom->radius[i],
+                                    .frozen = (atom->mask[i] & plan_.frozen_group) != 0},
+                        .fixed = (atom->mask[i] & plan_.moving_group) == 0});
 }
 
 // LIGGGHTS's list holds every pair once, with the smaller index first, and all grains in order.
@@ -94,6 +96,7 @@ void FusedVerlet::show_grain(int i, const LoadRecord& load, const Vec3* held, do
   const ConstColumn torque(load.torque);
   Column(atom->f[i]) = f;
   Column(atom->torque[i]) = torque;
+  if (loop_.is_fixed(i)) return;
   Column(atom->x[i]) = ConstColumn(grain.position);
   Column(atom->v[i]) =
       ConstColumn(grain.velocity) + half_kick * (grain.inverse_mass * f + plan_.acceleration);

@@ -12,19 +12,23 @@ constexpr double near_share = 0.3;
 
 }  // namespace
 
-void GrainLoop::start(GrainCounts counts, TangentialModel tangential,
-                      const GrainContactTable& contacts) {
+void GrainLoop::start(GrainCounts counts, const PairLaw& law) {
   counts_ = counts;
-  tangential_ = tangential;
-  contacts_ = &contacts;
+  law_ = &law;
   const int size = counts.total() + 2;
   grains_.resize(size);
   spins_.resize(size);
-  masses_.resize(size);
+  members_.resize(size);
   types_.resize(size);
+  fixed_.resize(size);
+  some_fixed_ = false;
   const double places[2][3] = {{0, 0, 0}, {1, 0, 0}}, at_rest[3] = {0, 0, 0};
-  for (int n = 0; n < 2; ++n)
-    set_grain(counts.total() + n, {places[n], at_rest, at_rest, 0.0, 1.0, 1});
+  // padding: law-abiding members, but points that never touch
+  const PairMember padding{.type = 1, .mass = 1.0, .radius = 1.0, .frozen = false};
+  for (int n = counts.total(); n < size; ++n) {
+    set_grain(n, {places[n - counts.total()], at_rest, at_rest, padding, false});
+    grains_[n].radius = 0.0;
+  }
   pairs_.start(counts.local, counts.total());
 }
 
@@ -37,28 +41,20 @@ void GrainLoop::set_grain(int i, const GrainState& state) {
     spin.velocity[d] = state.spin[d];
   }
   constexpr double sphere = 0.4;  // moment of inertia / (m r^2)
-  grain.radius = state.radius;
-  grain.inverse_mass = 1.0 / state.mass;
-  spin.inverse_inertia =
-      state.radius > 0 ? 1.0 / (sphere * state.mass * state.radius * state.radius) : 0.0;
-  masses_[i] = state.mass;
-  types_[i] = state.type;
+  const double mass = state.contact.mass, radius = state.contact.radius;
+  grain.radius = radius;
+  grain.inverse_mass = 1.0 / mass;
+  spin.inverse_inertia = radius > 0 ? 1.0 / (sphere * mass * radius * radius) : 0.0;
+  members_[i] = state.contact;
+  types_[i] = state.contact.type;
+  fixed_[i] = state.fixed ? 1 : 0;
+  some_fixed_ = some_fixed_ || state.fixed;
 }
 
 bool GrainLoop::all_pairs_alike() const {
   for (int i = 1; i < counts_.total(); ++i)
-    if (types_[i] != types_[0] || masses_[i] != masses_[0]) return false;
+    if (members_[i] != members_[0]) return false;
   return true;
-}
-
-PairCoefficients GrainLoop::coefficients(int i, int j) const {
-  const ContactCoefficients c = (*contacts_)(types_[i], types_[j]).between(masses_[i], masses_[j]);
-  return {.k = c.spring_constant,
-          .eta = c.damping_coefficient,
-          .k_t = c.tangential_spring_constant,
-          .eta_t = c.tangential_damping,
-          .mu = c.friction_coefficient,
-          .unused = {}};
 }
 
 // Slots in use at a time: those of the block and as far as its pairs reach.
@@ -81,7 +77,8 @@ void GrainLoop::finish_loading(double skin) {
 
 void GrainLoop::choose_near_pairs() {
   pairs_.choose_near_pairs(grains_.data(), near_margin_, uniform_, [this](int i, int j) {
-    return uniform_ ? coefficients(0, 0) : coefficients(i, j);
+    return uniform_ ? law_->between(members_[0], members_[0])
+                    : law_->between(members_[i], members_[j]);
   });
   near_travelled_ = 0.0;
 }
@@ -107,6 +104,7 @@ void GrainLoop::add_outside_loads(int end) {
 void GrainLoop::force_pass(const PassSettings& settings, const Observer* observer) {
   if (2.0 * near_travelled_ > near_margin_) choose_near_pairs();
   largest_[0] = largest_[1] = 0.0;
+  const PairModel model = law_->model();
   const ContactBatch contacts{.grains = grains_.data(),
                               .spins = spins_.data(),
                               .first = nullptr,
@@ -118,6 +116,7 @@ void GrainLoop::force_pass(const PassSettings& settings, const Observer* observe
                               .count = 0,
                               .dummy = 0,
                               .slip_time = settings.slip.duration,
+                              .least_normal_force = model.least_normal_force,
                               .largest = largest_};
   const WallBatch wall_batch{.grains = grains_.data(),
                              .spins = spins_.data(),
@@ -130,6 +129,7 @@ void GrainLoop::force_pass(const PassSettings& settings, const Observer* observe
       .spins = spins_.data(),
       .ring = ring_,
       .held_forces = settings.held_forces ? settings.held_forces->data() : nullptr,
+      .fixed = some_fixed_ ? fixed_.data() : nullptr,
       .begin = 0,
       .end = 0,
       .gravity = {settings.gravity[0], settings.gravity[1], settings.gravity[2]},
@@ -142,7 +142,7 @@ void GrainLoop::force_pass(const PassSettings& settings, const Observer* observe
   for (int block = 0; block < pairs_.block_count(); ++block) {
     integration.begin = block * grains_per_block;
     integration.end = std::min(counts_.local, integration.begin + grains_per_block);
-    pairs_.add_contact_loads(block, contacts, tangential_, uniform_);
+    pairs_.add_contact_loads(block, contacts, model, uniform_);
     for (WallContacts& wall : walls_) wall.add_contact_loads(block, wall_batch);
     add_outside_loads(integration.end);
     if (observer)

@@ -14,6 +14,7 @@
 
 #include "liggghts_plugins/contact_statistics.hpp"
 #include "liggghts_plugins/engine/contact_list.hpp"
+#include "liggghts_plugins/engine/pair_law.hpp"
 #include "liggghts_plugins/engine/wall_contacts.hpp"
 
 namespace gasgrain::plugins {
@@ -29,9 +30,8 @@ struct GrainState {
   const double* position;  // m
   const double* velocity;  // m/s
   const double* spin;      // rad/s
-  double radius;           // m
-  double mass;             // kg
-  int type;
+  PairMember contact;      // type, mass, radius
+  bool fixed;              // keeps place and velocity, whatever acts on it
 };
 
 struct PassSettings {
@@ -54,7 +54,7 @@ class GrainLoop {
   // Called for every local grain with its contact load, before integration.
   using Observer = std::function<void(int grain, const LoadRecord& load)>;
 
-  void start(GrainCounts counts, TangentialModel tangential, const GrainContactTable& contacts);
+  void start(GrainCounts counts, const PairLaw& law);
   void set_grain(int i, const GrainState& state);
   ContactList& pairs() { return pairs_; }
   std::vector<WallContacts>& walls() { return walls_; }
@@ -67,6 +67,7 @@ class GrainLoop {
   GrainRecord& grain(int i) { return grains_[i]; }
   const GrainRecord& grain(int i) const { return grains_[i]; }
   SpinRecord& spin(int i) { return spins_[i]; }
+  bool is_fixed(int i) const { return fixed_[i] != 0; }
 
   // Tells that all grains, ghosts too, moved by at most this, m. Kept for the near pairs and walls.
   void note_travel(double distance);
@@ -76,18 +77,18 @@ class GrainLoop {
 
  private:
   bool all_pairs_alike() const;
-  PairCoefficients coefficients(int i, int j) const;
   void size_ring();
   void choose_near_pairs();
   void add_outside_loads(int end);
 
   GrainCounts counts_;
-  TangentialModel tangential_ = TangentialModel::history;
-  const GrainContactTable* contacts_ = nullptr;
+  const PairLaw* law_ = nullptr;
   std::vector<GrainRecord> grains_;  // local, ghosts, two that never touch
   std::vector<SpinRecord> spins_;
-  std::vector<double> masses_;  // kg
+  std::vector<PairMember> members_;
   std::vector<int> types_;
+  std::vector<unsigned char> fixed_;
+  bool some_fixed_ = false;
   std::vector<LoadRecord> loads_;
   LoadRing ring_{};
   ContactList pairs_;

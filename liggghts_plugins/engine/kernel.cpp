@@ -127,7 +127,13 @@ GASGRAIN_LANES_INLINE void add(double* aligned, Quad value) {
   store_quad(aligned, load_quad(aligned) + value);
 }
 
-template <TangentialModel model, bool uniform>
+// Hertz's springs and dashpots at this overlap.
+GASGRAIN_LANES_INLINE Coefficients stiffened(const Coefficients& c, Lanes overlap) {
+  const Lanes spring = root(overlap > 0.0 ? overlap : all_lanes(0.0)), dashpot = root(spring);
+  return {c.k * spring, c.eta * dashpot, c.k_t * spring, c.eta_t * dashpot, c.mu};
+}
+
+template <NormalModel normal, TangentialModel model, bool uniform>
 GASGRAIN_LANES_INLINE void loads_of_group(ContactBatch& batch, const int* places, LaneMask valid,
                                           const Coefficients& common, Lanes& largest_overlap,
                                           Lanes& largest_relative) {
@@ -155,8 +161,11 @@ GASGRAIN_LANES_INLINE void loads_of_group(ContactBatch& batch, const int* places
   const Lanes v_n = dot(v, n);
   const Vector v_t = (v - v_n * n) + cross(n, spin);
 
-  const Coefficients c = uniform ? common : gather_coefficients(batch.coefficients, places);
-  const Lanes f_n = c.k * overlap - c.eta * v_n;
+  Coefficients c = uniform ? common : gather_coefficients(batch.coefficients, places);
+  if constexpr (normal == NormalModel::hertz) c = stiffened(c, overlap);
+  const Lanes force_n = c.k * overlap - c.eta * v_n;
+  const Lanes f_n =
+      force_n > batch.least_normal_force ? force_n : all_lanes(batch.least_normal_force);
   Vector force = f_n * n;
   Vector moment = {};
   if constexpr (model != TangentialModel::off) {
@@ -198,7 +207,7 @@ GASGRAIN_LANES_INLINE double largest_lane(Lanes a, double start) {
   return start;
 }
 
-template <TangentialModel model, bool uniform>
+template <NormalModel normal, TangentialModel model, bool uniform>
 void loads(ContactBatch& batch) {
   for (int lane = 0; lane < group_size; ++lane) batch.contacts[batch.count + lane] = batch.dummy;
   const Coefficients common = coefficients_of(batch.coefficients[0]);
@@ -206,32 +215,43 @@ void loads(ContactBatch& batch) {
   Lanes overlap = {}, relative = {};
   for (int c = 0; c < batch.count; c += group_size) {
     const LaneMask valid = lanes < static_cast<long long>(batch.count - c);
-    loads_of_group<model, uniform>(batch, batch.contacts + c, valid, common, overlap, relative);
+    loads_of_group<normal, model, uniform>(batch, batch.contacts + c, valid, common, overlap,
+                                           relative);
   }
   batch.largest[0] = largest_lane(overlap, batch.largest[0]);
   batch.largest[1] = largest_lane(relative, batch.largest[1]);
 }
 
-template <TangentialModel model>
-void loads_of_model(ContactBatch& batch, bool uniform) {
+template <NormalModel normal, TangentialModel model>
+void loads_of_models(ContactBatch& batch, bool uniform) {
   if (uniform)
-    loads<model, true>(batch);
+    loads<normal, model, true>(batch);
   else
-    loads<model, false>(batch);
+    loads<normal, model, false>(batch);
 }
 
-void contact_loads(ContactBatch& batch, TangentialModel model, bool uniform) {
+template <NormalModel normal>
+void loads_of_normal_model(ContactBatch& batch, TangentialModel model, bool uniform) {
   switch (model) {
     case TangentialModel::off:
-      return loads_of_model<TangentialModel::off>(batch, uniform);
+      return loads_of_models<normal, TangentialModel::off>(batch, uniform);
     case TangentialModel::no_history:
-      return loads_of_model<TangentialModel::no_history>(batch, uniform);
+      return loads_of_models<normal, TangentialModel::no_history>(batch, uniform);
     case TangentialModel::history:
-      return loads_of_model<TangentialModel::history>(batch, uniform);
+      return loads_of_models<normal, TangentialModel::history>(batch, uniform);
   }
 }
 
-template <bool held>
+void contact_loads(ContactBatch& batch, const PairModel& model, bool uniform) {
+  switch (model.normal) {
+    case NormalModel::linear:
+      return loads_of_normal_model<NormalModel::linear>(batch, model.tangential, uniform);
+    case NormalModel::hertz:
+      return loads_of_normal_model<NormalModel::hertz>(batch, model.tangential, uniform);
+  }
+}
+
+template <bool held, bool some_fixed>
 void integrate_block(IntegrationBatch& batch) {
   const double kick = batch.kick;
   const Quad gravity = {batch.gravity[0] * kick, batch.gravity[1] * kick, batch.gravity[2] * kick,
@@ -243,6 +263,13 @@ void integrate_block(IntegrationBatch& batch) {
     GrainRecord& grain = batch.grains[i];
     SpinRecord& spin = batch.spins[i];
     LoadRecord& load = batch.ring.slots[i & batch.ring.mask];
+    if constexpr (some_fixed) {
+      if (batch.fixed[i]) {
+        store_quad(load.force, Quad{});
+        store_quad(load.torque, Quad{});
+        continue;
+      }
+    }
     Quad force = load_quad(load.force);
     if constexpr (held) {
       const double* h = batch.held_forces + 3 * static_cast<std::size_t>(i);
@@ -265,11 +292,19 @@ void integrate_block(IntegrationBatch& batch) {
   batch.square_speed = fastest[0] > batch.square_speed ? fastest[0] : batch.square_speed;
 }
 
+template <bool held>
+void integrate_held(IntegrationBatch& batch) {
+  if (batch.fixed)
+    integrate_block<held, true>(batch);
+  else
+    integrate_block<held, false>(batch);
+}
+
 void integrate(IntegrationBatch& batch) {
   if (batch.held_forces)
-    integrate_block<true>(batch);
+    integrate_held<true>(batch);
   else
-    integrate_block<false>(batch);
+    integrate_held<false>(batch);
 }
 
 }  // namespace

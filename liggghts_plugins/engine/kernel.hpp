@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "liggghts_plugins/contact_settings.hpp"
+#include "liggghts_plugins/engine/pair_law.hpp"
 #include "liggghts_plugins/engine/records.hpp"
 
 namespace gasgrain::plugins {
@@ -37,16 +37,18 @@ struct ContactBatch {
   LoadRing ring;
   int* contacts;  // places in the list; may be written up to one group beyond the end
   int count;
-  int dummy;         // place in the list of a pair without effect, used as padding
-  double slip_time;  // s
-  double* largest;   // overlap (m) and overlap / sum of radii so far
+  int dummy;                  // place in the list of a pair without effect, used as padding
+  double slip_time;           // s
+  double least_normal_force;  // N
+  double* largest;            // overlap (m) and overlap / sum of radii so far
 };
 
 struct IntegrationBatch {
   GrainRecord* grains;
   SpinRecord* spins;
   LoadRing ring;
-  const double* held_forces;  // N, three per grain, or nullptr
+  const double* held_forces;   // N, three per grain, or nullptr
+  const unsigned char* fixed;  // not 0: neither moves nor changes its velocity; or nullptr
   int begin, end;
   double gravity[3];    // m/s^2
   double kick;          // s, for velocities
@@ -65,7 +67,7 @@ struct ContactKernel {
                         SpringRecord* springs, int* places);
   // Adds the loads of the contacts to the ring and advances their springs. `uniform`: all pairs
   // have the same coefficients.
-  void (*contact_loads)(ContactBatch&, TangentialModel, bool uniform);
+  void (*contact_loads)(ContactBatch&, const PairModel&, bool uniform);
   // v += a kick, x += v drift for the block, and sets its loads to zero.
   void (*integrate)(IntegrationBatch&);
 };

@@ -20,9 +20,11 @@
 #include <string>
 
 #include "liggghts_plugins/engine/primitive_wall_loads.hpp"
+#include "liggghts_plugins/engine/stock_pair_law.hpp"
 #include "liggghts_plugins/fix_wall_sdf.h"
 #include "liggghts_plugins/pair_gran_cgm.hpp"
 #include "liggghts_plugins/private_member.hpp"
+#include "liggghts_plugins/stock_pair_style.hpp"
 
 namespace gasgrain::plugins {
 
@@ -74,6 +76,7 @@ class Planner {
     look_at_box();
     for (int n = 0; n < lmp_.modify->nfix; ++n) look_at_fix(*lmp_.modify->fix[n]);
     if (integrators_ != 1) oppose("not exactly one fix nve/sphere");
+    oppose_if(frozen_grains_move(), "fix freeze of grains that are integrated");
     return plan_;
   }
 
@@ -83,25 +86,39 @@ class Planner {
     if (condition) oppose(what);
   }
 
-  void look_at_pair() {
-    PairGranCgm* pair = pair_gran_cgm(lmp_);
-    LAMMPS_NS::Force& force = *lmp_.force;
-    if (!pair || static_cast<const LAMMPS_NS::Pair*>(pair->parent()) != force.pair) {
-      oppose("pair style other than gran model cgm");
-      return;
+  // The law of the pair style, if it is one that the engine knows.
+  void find_law() {
+    const LAMMPS_NS::Pair* pair = lmp_.force->pair;
+    PairGranCgm* cgm = pair_gran_cgm(lmp_);
+    StockPairStyle* stock = stock_pair_style(lmp_);
+    if (cgm && static_cast<const LAMMPS_NS::Pair*>(cgm->parent()) == pair) {
+      plan_.pair = make_cgm_law(*cgm);
+    } else if (stock && static_cast<const LAMMPS_NS::Pair*>(stock->parent()) == pair) {
+      StockLawResult result = make_stock_law(lmp_, *stock);
+      for (const std::string& obstacle : result.obstacles) oppose(obstacle);
+      plan_.known_pair_style = true;
+      plan_.pair = std::move(result.law);
+    } else {
+      oppose("pair style other than gran model cgm, hooke, hooke/stiffness or hertz");
     }
-    plan_.pair = pair;
+    if (plan_.pair) plan_.known_pair_style = true;
+  }
+
+  void look_at_pair() {
+    find_law();
+    if (!plan_.pair) return;
+    LAMMPS_NS::Force& force = *lmp_.force;
     auto* gran = static_cast<LAMMPS_NS::PairGran*>(force.pair);
     oppose_if(force.newton_pair, "newton on");
     oppose_if(force.kspace || force.bond, "kspace or bond style");
-    oppose_if(gran->freeze_group_bit() != 0, "fix freeze");
+    plan_.frozen_group = gran->freeze_group_bit();
     oppose_if(gran->fr_pair() != nullptr, "rigid bodies");
     oppose_if(lmp_.modify->n_fixes_style("relax") > 0, "fix relax");
     oppose_if(gran->cpl() != nullptr, "compute pair/gran/local");
     oppose_if(gran->storeContactForces() || gran->storeContactForcesStress() ||
                   gran->storeSumDelta() || gran->store_sum_normal_force(),
               "stored contact forces");
-    const int values = pair->tangential() == TangentialModel::history ? 3 : 0;
+    const int values = plan_.pair->model().tangential == TangentialModel::history ? 3 : 0;
     oppose_if(gran->dnum() != values, "contact history of other styles");
   }
 
@@ -154,19 +171,34 @@ class Planner {
       if (fix.igroup != group_all) oppose(name + " of a group");
       Vec3 acceleration;
       gravity.get_gravity(acceleration.data());
-      plan_.gravity.push_back(&fix);
+      plan_.after_contacts.push_back(&fix);
       plan_.acceleration += acceleration;
+      return true;
+    }
+    if (is_style(fix, "freeze")) {
+      plan_.after_contacts.push_back(&fix);
       return true;
     }
     if (is_style(fix, "nve/sphere")) {
       const auto& sphere = static_cast<const FixNVESphere&>(fix);
       ++integrators_;
-      if (fix.igroup != group_all) oppose(name + " of a group");
+      plan_.moving_group = fix.groupbit;
       if (sphere.*private_member(SphereExtra()) != 0 || sphere.*private_member(SphereAddedMass()))
         oppose(name + " with options");
       return true;
     }
     return false;
+  }
+
+  // On any rank.
+  bool frozen_grains_move() const {
+    if (plan_.frozen_group == 0) return false;
+    const int both = plan_.frozen_group | plan_.moving_group;
+    int found = 0;
+    for (int i = 0; i < lmp_.atom->nlocal; ++i)
+      if ((lmp_.atom->mask[i] & both) == both) found = 1;
+    MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MAX, lmp_.world);
+    return found != 0;
   }
 
   static bool is_style(const Fix& fix, const char* style) {
@@ -204,8 +236,8 @@ std::string ScenePlan::text() const {
     return "Engine: stock time integration, because of " + reasons;
   }
   std::string text =
-      std::string("Engine: fused: cgm tangential ") + tangential_name(pair->tangential());
-  if (!gravity.empty()) text += ", gravity";
+      "Engine: fused: " + pair->name() + " tangential " + tangential_name(pair->model().tangential);
+  for (const LAMMPS_NS::Fix* fix : after_contacts) text += std::string(", ") + fix->style;
   if (!walls.empty()) text += ", wall/sdf x " + std::to_string(walls.size());
   if (!primitive_walls.empty())
     text += ", wall/gran primitive x " + std::to_string(primitive_walls.size());
