@@ -66,6 +66,9 @@ struct GasSolver::State {
   void evaluate_slope();
   void predict(double dt, const AdamsBashforth& weights);
   void check_finite(double dt, double speed_before) const;
+  void visit(StateArchive& archive);
+  void visit_grains(StateArchive& archive);
+  void rebuild();
 
   GasCase gas_case;
   GasDomain domain;
@@ -153,6 +156,39 @@ void GasSolver::State::check_finite(double dt, double speed_before) const {
   throw UserError(message.str());
 }
 
+void GasSolver::State::visit(StateArchive& archive) {
+  archive.number("time", time);
+  archive.number("previous_dt", previous_dt);
+  archive.faces("velocity", velocity);
+  archive.cells("pressure", pressure);  // the first guess of the next solve
+  archive.faces("slope", slope.total);
+  archive.partial_sums("slope_convection", {slope.convection.data(), 3});
+  archive.partial_sums("slope_viscous", {slope.viscous.data(), 3});
+  visit_grains(archive);
+  if (archive.restores()) rebuild();
+}
+
+void GasSolver::State::visit_grains(StateArchive& archive) {
+  bool present = medium.has_grains;
+  archive.number_of("has_grains", present);
+  if (archive.restores() && !present) grains = no_grains(domain.size());
+  if (!present) return;
+  archive.cells("void_fraction", grains.void_fraction);
+  archive.cells("momentum_exchange", grains.momentum_exchange);
+  for (int d = 0; d < 3; ++d) {
+    archive.cells(std::string("exchange_momentum_") + "xyz"[d], grains.exchange_momentum[d]);
+  }
+}
+
+// What follows from the state that was restored.
+void GasSolver::State::rebuild() {
+  update(medium, domain, grains);
+  fill_velocity_ghosts(domain, medium, velocity);
+  fill_ghosts(domain.decomposition, pressure);
+  projection.restore(pressure);
+  speeds = largest_speeds(domain, velocity);
+}
+
 GasSolver::GasSolver(const GasCase& gas_case, MPI_Comm communicator)
     : state_(std::make_unique<State>(gas_case, communicator)) {}
 
@@ -234,6 +270,10 @@ const Field& GasSolver::pressure() const {
 }
 const Field& GasSolver::void_fraction() const {
   return state_->medium.cell_void_fraction;
+}
+
+void GasSolver::visit_state(StateArchive& archive) {
+  state_->visit(archive);
 }
 
 void GasSolver::accept_void_fraction_as_old() {

@@ -12,6 +12,7 @@
 #include "cfd/gas_case.hpp"
 #include "cfd/grid.hpp"
 #include "cfd/pressure_solver.hpp"
+#include "cfd/state_archive.hpp"
 #include "cfd/wall_geometry.hpp"
 
 namespace gasgrain::cfd {
@@ -79,6 +80,11 @@ class GasSolver {
   // Largest step that the viscous and Courant limits and numerics.largest_step allow now, s.
   double largest_stable_step() const;
   double time() const;  // s
+
+  // Saves or restores all that enters later steps. Of grains(), what the last advance() or
+  // accept_void_fraction_as_old() was given belongs to it: call this before setting them anew. A
+  // solver that restores must be of the same case, on any number of ranks.
+  void visit_state(StateArchive& archive);
 
   const VectorField& velocity() const;  // u on faces, m/s (interstitial)
   const Field& pressure() const;        // p in cells, Pa

@@ -7,7 +7,7 @@
 #include <optional>
 #include <sstream>
 
-#include "cfd/collective_error.hpp"
+#include "coupling/files/collective_error.hpp"
 #include "cfd/gas_run.hpp"
 
 namespace {

@@ -29,7 +29,11 @@ class Projection {
   // u = u* - (c/eps) grad p on the faces that take part.
   void correct(VectorField& velocity, const FaceMedium& medium, double dt) const;
 
-  // grad p on faces, Pa/m, 0 on those that do not take part; ghosts filled. Of the last solve().
+  // Goes on from a pressure of an earlier run, ghosts filled.
+  void restore(const Field& pressure) { set_gradient(pressure); }
+
+  // grad p on faces, Pa/m, 0 on those that do not take part; ghosts filled. Of the last solve() or
+  // restore().
   const VectorField& pressure_gradient() const { return gradient_; }
 
   // Largest |change of the void + dt * outflow| of a cell over its void. Collective.

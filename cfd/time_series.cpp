@@ -3,7 +3,7 @@
 #include <iomanip>
 #include <limits>
 
-#include "cfd/collective_error.hpp"
+#include "coupling/files/collective_error.hpp"
 
 namespace gasgrain::cfd {
 

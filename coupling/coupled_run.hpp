@@ -19,7 +19,7 @@
 #include "coupling/gas_coupling.hpp"
 #include "coupling/run_files.hpp"
 #include "coupling/run_statistics.hpp"
-#include "coupling/schedule.hpp"
+#include "coupling/shared/schedule.hpp"
 
 namespace gasgrain::coupling {
 

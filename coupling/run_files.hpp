@@ -8,7 +8,7 @@
 #include "cfd/gas_solver.hpp"
 #include "coupling/dem_host.hpp"
 #include "coupling/files/frame_writer.hpp"
-#include "coupling/summary.hpp"
+#include "coupling/files/summary.hpp"
 
 namespace gasgrain::coupling {
 

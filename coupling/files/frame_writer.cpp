@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
 
+#include "coupling/files/collective_error.hpp"
 #include "coupling/files/hdf5_file.hpp"
 #include "coupling/files/xdmf.hpp"
 #include "coupling/shared/error.hpp"
@@ -18,26 +18,6 @@
 namespace gasgrain {
 
 namespace {
-
-// Runs `action` on every rank; when it throws on any, throws UserError on all.
-void run_on_all(MPI_Comm comm, const std::function<void()>& action) {
-  std::string failure;
-  try {
-    action();
-  } catch (const std::exception& error) {
-    failure = error.what();
-  }
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  int failed = failure.empty() ? std::numeric_limits<int>::max() : rank;  // lowest failed rank
-  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MIN, comm);
-  if (failed == std::numeric_limits<int>::max()) return;
-  int length = static_cast<int>(failure.size());
-  MPI_Bcast(&length, 1, MPI_INT, failed, comm);
-  failure.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(failure.data(), length, MPI_CHAR, failed, comm);
-  throw UserError(failure);
-}
 
 bool is_identifier(const std::string& name) {
   for (const char c : name) {
@@ -101,7 +81,7 @@ FrameWriter::FrameWriter(MPI_Comm comm, std::string directory, std::string name,
     : comm_(comm), directory_(std::move(directory)), name_(std::move(name)) {
   GASGRAIN_ASSERT(is_identifier(name_));
   MPI_Comm_rank(comm_, &rank_);
-  run_on_all(comm_, [this] {
+  run_collectively(comm_, [this] {
     if (rank_ != 0) return;
     std::error_code error;
     std::filesystem::create_directories(directory_, error);
@@ -110,7 +90,7 @@ FrameWriter::FrameWriter(MPI_Comm comm, std::string directory, std::string name,
                       "': " + error.message());
     }
   });
-  run_on_all(comm_, [this] { read_index(); });
+  run_collectively(comm_, [this] { read_index(); });
   if (series == Series::start_new) drop_frames_from(-std::numeric_limits<double>::infinity());
 }
 
@@ -120,7 +100,7 @@ void FrameWriter::write(double time, const GridFrame& frame) {
   const int number = begin_frame(time);
   const std::string file = file_name(number);
   std::string xml = xdmf::grid_mesh(frame.cells, frame.lower, frame.spacing);
-  run_on_all(comm_, [&] {
+  run_collectively(comm_, [&] {
     Hdf5File out = Hdf5File::create(path(file) + ".part", comm_);
     out.write_attribute<double>("time", {time});
     for (const NamedArray& array : frame.arrays) {
@@ -143,7 +123,7 @@ void FrameWriter::write(double time, const PointFrame& frame) {
   std::string xml = xdmf::grain_mesh(file, block.global.front()) +
                     xdmf::attribute("id", 1, xdmf::Center::grain,
                                     xdmf::hdf_item(file + ":/id", block.global, xdmf::integer));
-  run_on_all(comm_, [&] {
+  run_collectively(comm_, [&] {
     Hdf5File out = Hdf5File::create(path(file) + ".part", comm_);
     out.write_attribute<double>("time", {time});
     out.write("position", positions, frame.positions);
@@ -173,7 +153,7 @@ int FrameWriter::begin_frame(double time) {
 
 void FrameWriter::finish_frame(double time, int number, const std::string& xml) {
   entries_.push_back({time, number, xml});
-  run_on_all(comm_, [&] {
+  run_collectively(comm_, [&] {
     if (rank_ != 0) return;
     replace_file(path(file_name(number)) + ".part", path(file_name(number)));
     write_index();
@@ -188,10 +168,11 @@ void FrameWriter::drop_frames_from(double time) {
     entries_.pop_back();
   }
   if (dropped.empty()) return;
-  run_on_all(comm_, [&] {
+  run_collectively(comm_, [&] {
     if (rank_ != 0) return;
     write_index();
-    for (const int number : dropped) std::filesystem::remove(path(file_name(number)));
+    std::error_code ignored;  // what stays is not in the index
+    for (const int number : dropped) std::filesystem::remove(path(file_name(number)), ignored);
   });
 }
 

@@ -82,6 +82,13 @@ hid_t memory_type<std::int64_t>() {
   return H5T_NATIVE_INT64;
 }
 
+// A string of `size` bytes, the closing zero included.
+Handle text_type(std::size_t size) {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, size);
+  return {type, H5Tclose};
+}
+
 // Access properties: through MPI when there is a communicator.
 class FileAccess {
  public:
@@ -180,6 +187,11 @@ Hdf5File::~Hdf5File() {
   }
 }
 
+void Hdf5File::flush() {
+  const QuietErrors quiet;
+  if (H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0) fail("write out the file");
+}
+
 void Hdf5File::close() {
   const QuietErrors quiet;
   if (H5Fclose(std::exchange(id_, std::int64_t{-1})) < 0) fail("close the file");
@@ -211,8 +223,7 @@ void Hdf5File::write_attribute(const std::string& name, const std::vector<T>& va
 
 void Hdf5File::write_attribute(const std::string& name, const std::string& text) {
   const QuietErrors quiet;
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type, text.size() + 1);
+  const Handle type = text_type(text.size() + 1);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle attribute(H5Acreate2(id_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
                          H5Aclose);
@@ -238,6 +249,18 @@ void Hdf5File::write(const std::string& dataset, const ArrayBlock& block, const 
   if (H5Dwrite(set, memory_type<T>(), selection.memory, selection.file, selection.transfer,
                values) < 0) {
     fail("write dataset '" + dataset + "'");
+  }
+}
+
+void Hdf5File::write_text(const std::string& dataset, const std::string& text) {
+  const QuietErrors quiet;
+  const Handle type = text_type(text.size() + 1);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle set(
+      H5Dcreate2(id_, dataset.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dclose);
+  if (!set.valid() || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) < 0) {
+    fail("write text '" + dataset + "'");
   }
 }
 
@@ -303,6 +326,21 @@ std::vector<T> Hdf5File::read(const std::string& dataset) const {
   std::vector<T> values(product(block.global));
   read(dataset, block, values.data());
   return values;
+}
+
+std::string Hdf5File::read_text(const std::string& dataset) const {
+  const QuietErrors quiet;
+  const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set.valid()) fail("find text '" + dataset + "'");
+  const Handle type(H5Dget_type(set), H5Tclose);
+  const std::size_t size = H5Tget_class(type) == H5T_STRING ? H5Tget_size(type) : 0;
+  if (size == 0 || H5Tis_variable_str(type) != 0) fail("read '" + dataset + "' as text");
+  std::string text(size, '\0');
+  if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) {
+    fail("read text '" + dataset + "'");
+  }
+  text.resize(std::strlen(text.c_str()));
+  return text;
 }
 
 #define GASGRAIN_HDF5_TYPE(T)                                                         \

@@ -37,6 +37,8 @@ class Hdf5File {
   Hdf5File& operator=(const Hdf5File&) = delete;
   ~Hdf5File();
 
+  // Hands everything written so far to the operating system (of all ranks, when collective).
+  void flush();
   void close();
 
   // T: double, std::int32_t or std::int64_t. Attributes belong to the root group, same value on
@@ -46,6 +48,8 @@ class Hdf5File {
   void write_attribute(const std::string& name, const std::string& text);
   template <class T>
   void write(const std::string& dataset, const ArrayBlock& block, const T* values);
+  // A text of any length, same on every rank; an attribute holds at most 64 kB.
+  void write_text(const std::string& dataset, const std::string& text);
 
   template <class T>
   std::vector<T> attribute(const std::string& name) const;
@@ -57,6 +61,7 @@ class Hdf5File {
   // The whole dataset.
   template <class T>
   std::vector<T> read(const std::string& dataset) const;
+  std::string read_text(const std::string& dataset) const;
 
  private:
   enum class Access { serial, collective };

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "coupling/shared/error.hpp"
 #include "tests/shared/error_checks.hpp"
 
 namespace gasgrain {
@@ -59,6 +60,18 @@ TEST_F(Hdf5, BlocksOfAllRanksMakeTheDataset) {
   std::vector<double> mine(values.size());
   together.read("group/inner/rows", block, mine.data());
   EXPECT_EQ(mine, values);
+}
+
+TEST_F(Hdf5, TextsMayBeLongerThanAnAttribute) {
+  const std::string text = "first line\n" + std::string(100000, 'x') + "\n";
+  Hdf5File out = Hdf5File::create(path, MPI_COMM_WORLD);
+  out.write_text("case", text);
+  out.write_text("empty", "");
+  out.flush();
+  out.close();
+  EXPECT_EQ(Hdf5File::open(path).read_text("case"), text);
+  EXPECT_EQ(Hdf5File::open(path, MPI_COMM_WORLD).read_text("empty"), "");
+  EXPECT_THROW((void)Hdf5File::open(path).read_text("absent"), UserError);
 }
 
 TEST_F(Hdf5, RanksAndDatasetsMayBeEmpty) {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace gasgrain::coupling {
+namespace gasgrain {
 
 class Schedule {
  public:
@@ -25,4 +25,4 @@ class Schedule {
   double done_ = 0;  // whole intervals passed
 };
 
-}  // namespace gasgrain::coupling
+}  // namespace gasgrain

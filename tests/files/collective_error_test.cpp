@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "cfd/collective_error.hpp"
+#include "coupling/files/collective_error.hpp"
 
-namespace gasgrain::cfd {
+namespace gasgrain {
 namespace {
 
 TEST(CollectiveError, nothing_happens_when_all_succeed) {
@@ -26,4 +26,4 @@ TEST(CollectiveError, every_rank_gets_the_message_of_the_lowest_failing_one) {
 }
 
 }  // namespace
-}  // namespace gasgrain::cfd
+}  // namespace gasgrain

@@ -1,8 +1,8 @@
-#include "coupling/schedule.hpp"
+#include "coupling/shared/schedule.hpp"
 
 #include <gtest/gtest.h>
 
-namespace gasgrain::coupling {
+namespace gasgrain {
 namespace {
 
 TEST(Schedule, is_due_once_per_interval_in_spite_of_rounding) {
@@ -30,4 +30,4 @@ TEST(Schedule, of_interval_zero_is_always_due) {
 }
 
 }  // namespace
-}  // namespace gasgrain::coupling
+}  // namespace gasgrain

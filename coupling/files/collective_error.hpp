@@ -7,7 +7,7 @@
 
 #include "coupling/shared/error.hpp"
 
-namespace gasgrain::cfd {
+namespace gasgrain {
 
 // Runs `work` on every rank, then agrees: when it threw a UserError on any of them, every rank
 // throws the UserError of the lowest. Collective; `work` itself must not communicate after the
@@ -35,4 +35,4 @@ void run_collectively(MPI_Comm communicator, Work&& work) {
   throw UserError(message);
 }
 
-}  // namespace gasgrain::cfd
+}  // namespace gasgrain

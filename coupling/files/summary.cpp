@@ -1,4 +1,4 @@
-#include "coupling/summary.hpp"
+#include "coupling/files/summary.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -7,7 +7,7 @@
 
 #include "coupling/shared/error.hpp"
 
-namespace gasgrain::coupling {
+namespace gasgrain {
 
 namespace {
 
@@ -69,4 +69,4 @@ std::string source_commit() {
   return GASGRAIN_COMMIT;
 }
 
-}  // namespace gasgrain::coupling
+}  // namespace gasgrain

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace gasgrain::coupling {
+namespace gasgrain {
 
 struct Quantity {
   std::string name;
@@ -30,4 +30,4 @@ void write_summary(const std::string& path, const Summary& summary);
 // Commit of the source that this library was built from, or "unknown".
 std::string source_commit();
 
-}  // namespace gasgrain::coupling
+}  // namespace gasgrain

@@ -1,4 +1,4 @@
-#include "coupling/summary.hpp"
+#include "coupling/files/summary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "coupling/shared/error.hpp"
 
-namespace gasgrain::coupling {
+namespace gasgrain {
 namespace {
 
 TEST(Summary, is_the_form_that_all_results_have) {
@@ -49,4 +49,4 @@ TEST(Summary, names_the_file_it_cannot_write) {
 }
 
 }  // namespace
-}  // namespace gasgrain::coupling
+}  // namespace gasgrain
