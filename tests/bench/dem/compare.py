@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
-"""Cost of a grain-step: stock LIGGGHTS, our contact law in LIGGGHTS's loop, and the fused engine.
+"""Cost of a grain-step: stock LIGGGHTS, the same script in the fused engine, our contact law in
+LIGGGHTS's loop, and our law with SDF walls in the fused engine.
 
-    tests/bench/dem/compare.py BUILD_DIRECTORY BED.csv[.gz] [--copies 6] [--steps 1000] [--ranks 1]
+    tests/bench/dem/compare.py BUILD_DIRECTORY BED.csv[.gz] [--copies 6] [--ranks 1] ...
 
 BED: columns x,y,z of a settled bed of 0.5 mm grains in a box of 50 x 10 x 200 mm; `--copies` sets
 copies of it side by side along y. States, as in docs/performance.md:
     A  grains of 0.48 mm with random velocities of 0.1 m/s: almost collisional
     B  settled, with random velocities of 0.1 m/s
     C  settled
-All programs run the same script apart from contact model and walls, one after the other in every
-repetition; the table gives medians of wall nanoseconds per grain and step.
+Programs: stock (liggghts), unchanged (gasgrain with the script of stock), cgm (our law and SDF walls,
+engine off), fused (the same, fused). All run the same script apart from contact model and walls, one
+after the other in every repetition; the table gives medians of wall nanoseconds per grain and step.
 """
 
 import argparse
@@ -28,6 +30,8 @@ import tempfile
 BOX = [0.05, 0.01, 0.2]  # m
 DENSITY = 2500.0  # kg/m^3
 K, E, MU, STEP = 6250.0, 0.9, 0.3, 1e-6  # N/m, -, -, s
+YOUNG, POISSON = 5e6, 0.3  # Pa, - (hertz)
+STOCK_SCRIPT = ("stock", "unchanged")
 DIAMETER = {"A": 4.8e-4, "B": 5e-4, "C": 5e-4}  # m
 SPEED = {"A": 0.1, "B": 0.1, "C": 0.0}  # m/s
 
@@ -81,9 +85,14 @@ def property_global(name, pair, wall):
     return f"fix {name} all property/global {name} peratomtypepair 2 {pair} {wall} {wall} {wall}\n"
 
 
-def contact_styles(program, copies):
+def contact_styles(program, copies, stock_model):
     mass = DENSITY * math.pi / 6 * 5e-4**3
-    if program == "stock":
+    if program in STOCK_SCRIPT and stock_model == "hertz":
+        text = (f"fix Y all property/global youngsModulus peratomtype {YOUNG} {YOUNG}\n"
+                f"fix nu all property/global poissonsRatio peratomtype {POISSON} {POISSON}\n")
+        text += property_global("coefficientRestitution", E, E)
+        model = "hertz tangential history {walls}"
+    elif program in STOCK_SCRIPT:
         eta, eta_wall = damping(mass / 2), damping(mass)
         text = property_global("kn", K, K) + property_global("kt", K, K)
         text += property_global("gamman_abs", eta, eta_wall)
@@ -97,7 +106,7 @@ def contact_styles(program, copies):
     text += property_global("coefficientFriction", MU, MU)
     text += f"pair_style gran model {model.format(walls='')}\npair_coeff * *\n"
     for name, d, place, _ in planes(copies):
-        if program == "stock":
+        if program in STOCK_SCRIPT:
             wall = model.format(walls=f"primitive type 2 {'xyz'[d]}plane {place}")
             text += f"fix {name} all wall/gran model {wall}\n"
         else:
@@ -105,26 +114,27 @@ def contact_styles(program, copies):
     return text
 
 
-def script(program, copies, skin, steps, ranks):
-    engine = {"stock": "", "cgm": "gasgrain_engine off\n", "fused": "gasgrain_engine fused\n"}
+def script(program, given):
+    engine = {"stock": "", "unchanged": "gasgrain_engine fused\n", "cgm": "gasgrain_engine off\n",
+              "fused": "gasgrain_engine fused\n"}
     return f"""{engine[program]}units si
 atom_style granular
 atom_modify map array
 boundary f f f
 newton off
 communicate single vel yes
-processors {ranks} 1 1
+processors {given.ranks} 1 1
 read_data grains.data
-neighbor {skin} bin
+neighbor {given.skin} bin
 neigh_modify delay 0 contact_distance_factor 1.01
-{contact_styles(program, copies)}timestep {STEP}
+{contact_styles(program, given.copies, given.stock_model)}timestep {STEP}
 fix gravity all gravity 9.81 vector 0 0 -1
 fix integrate all nve/sphere
 thermo_style custom step atoms ke
 thermo 100000
 thermo_modify norm no lost error
-run {max(steps // 5, 50)}
-run {steps}
+run {max(given.steps // 5, 50)}
+run {given.steps}
 """
 
 
@@ -153,12 +163,14 @@ def main():
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--skin", type=float, default=5e-5)
     parser.add_argument("--states", default="ABC")
-    parser.add_argument("--programs", default="stock,cgm,fused")
+    parser.add_argument("--programs", default="stock,unchanged,cgm,fused")
+    parser.add_argument("--stock-model", choices=("hooke/stiffness", "hertz"),
+                        default="hooke/stiffness")
     given = parser.parse_args()
     programs = given.programs.split(",")
     gasgrain = str((given.build / "bin" / "gasgrain").resolve())
-    executable = {"stock": shutil.which("liggghts") or "liggghts", "cgm": gasgrain,
-                  "fused": gasgrain}
+    executable = {program: gasgrain for program in programs}
+    executable["stock"] = shutil.which("liggghts") or "liggghts"
     start = ["mpirun", "--oversubscribe", "-n", str(given.ranks)] if given.ranks > 1 else []
     bed = read_bed(given.bed)
     grains = given.copies * len(bed)
@@ -172,7 +184,7 @@ def main():
             samples = {program: [] for program in programs}
             for _ in range(given.repeats):
                 for program in programs:
-                    text = script(program, given.copies, given.skin, given.steps, given.ranks)
+                    text = script(program, given)
                     time = seconds([*start, executable[program]], directory, text)
                     samples[program].append(time * 1e9 / (grains * given.steps))
         cost = {program: statistics.median(values) for program, values in samples.items()}
