@@ -12,6 +12,7 @@
 #include "coupling/shared/error.hpp"
 #include "coupling/shared/primitives.hpp"
 #include "coupling/shared/sampling.hpp"
+#include "coupling/shared/stl_shape.hpp"
 
 namespace gasgrain {
 
@@ -118,13 +119,13 @@ Shape read_primitive(const ConfigTable& table, const std::string& key, const Rea
 }
 
 constexpr const char* shape_keys =
-    "plane, box, cylinder, sphere, union, intersection, difference, "
+    "plane, box, cylinder, sphere, stl, union, intersection, difference, "
     "complement or file";
 
 // The one shape key of a table; the caller rejects unknown keys afterwards.
 std::string shape_key(const ConfigTable& table) {
   std::string found;
-  for (const char* key : {"plane", "box", "cylinder", "sphere", "union", "intersection",
+  for (const char* key : {"plane", "box", "cylinder", "sphere", "stl", "union", "intersection",
                           "difference", "complement", "file"}) {
     if (!table.has(key)) continue;
     if (!found.empty()) {
@@ -147,6 +148,7 @@ Shape read_shape(const ConfigTable& table, ShapeFileLoader load_file) {
   if (key == "box") return read_primitive(table, key, read_box);
   if (key == "cylinder") return read_primitive(table, key, read_cylinder);
   if (key == "sphere") return read_primitive(table, key, read_sphere);
+  if (key == "stl") return read_primitive(table, key, read_stl_shape);
   if (key == "union") return make_union(read_parts(table, key, 1, load_file));
   if (key == "intersection") return make_intersection(read_parts(table, key, 1, load_file));
   if (key == "difference") return read_difference(table, load_file);

@@ -54,6 +54,21 @@ double resolved_range(const std::vector<Shape>& parts) {
   for (const Shape& part : parts) range = std::min(range, part->resolved_range());
   return range;
 }
+std::string remarks(const std::vector<Shape>& parts) {
+  std::string lines;
+  for (const Shape& part : parts) lines += part->remarks();
+  return lines;
+}
+std::string remarks(const Union& solid) {
+  return remarks(solid.parts);
+}
+std::string remarks(const Intersection& solid) {
+  return remarks(solid.parts);
+}
+std::string remarks(const Complement& solid) {
+  return solid.shape->remarks();
+}
+
 double resolved_range(const Union& solid) {
   return resolved_range(solid.parts);
 }
@@ -69,6 +84,7 @@ class BooleanShape final : public MeasuredShape<Solid> {
  public:
   using MeasuredShape<Solid>::MeasuredShape;
   double resolved_range() const override { return gasgrain::resolved_range(this->solid_); }
+  std::string remarks() const override { return gasgrain::remarks(this->solid_); }
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <memory>
+#include <string>
 
 #include "coupling/shared/vec3.hpp"
 
@@ -28,6 +29,8 @@ class SignedDistance {
   // Below this |distance| the field is resolved; a sampled field stores only a band around the
   // surface and beyond it returns a bound with gradient zero. A grain radius must not exceed it. m.
   virtual double resolved_range() const { return std::numeric_limits<double>::infinity(); }
+  // What the user should know about how the shape was made, in lines; or empty.
+  virtual std::string remarks() const { return {}; }
 };
 
 using Shape = std::shared_ptr<const SignedDistance>;

@@ -6,6 +6,7 @@ usage: gasgrain_sdf_test.py GASGRAIN_SDF
 import math
 import os
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -38,6 +39,52 @@ def volume_error(case, directory, spacing):
     assert result.returncode == 0, result.stderr
     exact = 4 / 3 * math.pi * 0.004**3
     return abs(number(r"solid volume +(\S+)", result.stdout) - exact) / exact
+
+
+def write_box_stl(path, size, defects):
+    """Binary STL of a box from the origin, in mm; with defects: a duplicate, a triangle turned."""
+    corners = [[size[d] * (n >> d & 1) for d in range(3)] for n in range(8)]
+    quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+    if defects:
+        triangles[4] = triangles[4][::-1]
+        triangles.append(triangles[7])
+    with open(path, "wb") as file:
+        file.write(b"box".ljust(80) + struct.pack("<I", len(triangles)))
+        for t in triangles:
+            file.write(struct.pack("<12fH", 0, 0, 0, *(x for n in t for x in corners[n]), 0))
+
+
+def check_stl(directory, fails):
+    box, out = os.path.join(directory, "box.stl"), os.path.join(directory, "box.h5")
+    write_box_stl(box, (20, 10, 30), defects=True)
+    done = run("--stl", box, "--scale", "1e-3", "--rotate", "0", "0", "1", "90", "--translate",
+               "0.1", "0", "0", "--spacing", "1e-3", "-o", out)
+    assert done.returncode == 0, done.stderr
+    assert "1            triangles that are there more than once" in done.stdout, done.stdout
+    assert "1            triangles turned round" in done.stdout, done.stdout
+    assert abs(number(r"solid volume +(\S+)", done.stdout) / 6e-6 - 1) < 0.02
+    lower = [float(x) for x in re.search(r"box +\((.*?)\)", done.stdout).group(1).split(",")]
+    assert abs(lower[0] - 0.082) < 1e-6 and abs(lower[1] + 0.008) < 1e-6, lower  # margin 8 mm
+
+    # the same through a case file, as a sheet and as a vessel
+    case = os.path.join(directory, "stl.toml")
+    with open(case, "w") as file:
+        file.write('[[body]]\nname = "walls"\n'
+                   'stl = {file = ["box.stl"], scale = 1e-3, sheet_thickness = 4e-3}\n'
+                   '[[body]]\nname = "vessel"\n'
+                   'complement = {stl = {file = "box.stl", scale = 1e-3}}\n')
+    for name in ("walls", "vessel"):
+        made = run(case, "--body", name, "--spacing", "1e-3", "-o", out, "--lower", "0", "0", "0",
+                   "--upper", "0.02", "0.01", "0.03")
+        assert made.returncode == 0, made.stderr
+
+    cut = os.path.join(directory, "cut.stl")
+    with open(box, "rb") as whole, open(cut, "wb") as part:
+        part.write(whole.read()[:300])
+    fails("cut short", "--stl", cut, "--spacing", "1e-3", "-o", out)
+    fails("cannot read STL", "--stl", "none.stl", "--spacing", "1e-3", "-o", out)
+    fails("--spacing", "--stl", box, "-o", out)
 
 
 def main():
@@ -81,6 +128,7 @@ def main():
         assert run(case, "--body", "tube", "--spacing", "1e-3", "-o", out,
                    "--allow-cut").returncode == 0
         assert os.path.exists(out)
+        check_stl(directory, fails)
 
 
 if __name__ == "__main__":
