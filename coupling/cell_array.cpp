@@ -145,6 +145,7 @@ void add_ghosts_to_owners(const cfd::Decomposition& decomposition, CellArray<com
   template void fill_ghosts<n>(const cfd::Decomposition&, CellArray<n>&);      \
   template void add_ghosts_to_owners<n>(const cfd::Decomposition&, CellArray<n>&);
 GASGRAIN_INSTANTIATE(1)
+GASGRAIN_INSTANTIATE(2)
 GASGRAIN_INSTANTIATE(4)
 GASGRAIN_INSTANTIATE(6)
 #undef GASGRAIN_INSTANTIATE

@@ -13,6 +13,7 @@ CouplingOptions read_coupling_options(const ConfigTable& table, const cfd::GasPr
   options.drag.smallest_void_fraction =
       table.number_or("smallest_void_fraction", options.drag.smallest_void_fraction,
                       {.lower = 0, .upper = 1, .lower_open = true});
+  options.drag.mixture = table.choice_or("mixture", "off", {"off", "sauter"}) == "sauter";
   options.feedback = table.choice_or("feedback", "two-way", {"two-way", "one-way"}) == "two-way"
                          ? Feedback::two_way
                          : Feedback::one_way;

@@ -153,7 +153,24 @@ void GasCoupling::deposit_void_fraction() {
   throw UserError(message.str());
 }
 
+// V and V/d0 spread alike; their ratio around a grain is the Sauter mean diameter of the originals.
+void GasCoupling::gather_sauter_diameters() {
+  const std::vector<GrainRecord>& grains = transfer_.received();
+  std::vector<std::array<double, 2>> amounts(grains.size());
+  for (std::size_t n = 0; n < grains.size(); ++n)
+    amounts[n] = {grains[n].volume, grains[n].volume / grains[n].original_diameter};
+  cfd::Field volume(void_fraction_.size()), surface(void_fraction_.size());
+  deposition_.deposit<2>({&volume, &surface}, amounts);
+  deposition_.gather<2>(amounts, {&volume, &surface});
+  sauter_diameters_.resize(grains.size());
+  for (std::size_t n = 0; n < grains.size(); ++n) {
+    const auto& [v, s] = amounts[n];
+    sauter_diameters_[n] = s > 0 ? v / s : grains[n].original_diameter;
+  }
+}
+
 void GasCoupling::evaluate_drag() {
+  if (options_.drag.mixture) gather_sauter_diameters();
   const std::vector<GrainRecord>& grains = transfer_.received();
   std::vector<std::array<double, 4>> gathered(grains.size());
   deposition_.gather<4>(gathered, {&void_fraction_, &velocity_[0], &velocity_[1], &velocity_[2]});
@@ -163,7 +180,8 @@ void GasCoupling::evaluate_drag() {
     const auto& [around, u, v, w] = gathered[n];
     void_fractions_[n] = around;
     if (!deposition_.takes_part(n)) continue;
-    const SurroundingGas gas{around, {u, v, w}};
+    SurroundingGas gas{around, {u, v, w}};
+    if (options_.drag.mixture) gas.sauter_diameter = sauter_diameters_[n];
     coefficients_[n] = exchange_coefficient(grains[n], gas, options_.drag);
     if (void_fraction_is_limited(gas, options_.drag)) ++report_.limited;
   }

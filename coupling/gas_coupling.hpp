@@ -36,6 +36,7 @@ class GasCoupling {
  private:
   void send_grains_to_gas_ranks(std::span<const GrainRecord> grains);
   void deposit_void_fraction();
+  void gather_sauter_diameters();
   void evaluate_drag();
   void deposit_drag();
   void advance_gas(double interval);
@@ -54,6 +55,7 @@ class GasCoupling {
   // Per received grain.
   std::vector<double> coefficients_;            // B, kg/s
   std::vector<double> void_fractions_;          // eps around it
+  std::vector<double> sauter_diameters_;        // of the originals around it, m; mixtures only
   std::vector<Vec3> drag_, pressure_, forces_;  // N; forces_ = drag_ + pressure_
 
   // Cells.

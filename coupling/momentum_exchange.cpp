@@ -13,6 +13,8 @@ double exchange_coefficient(const GrainRecord& grain, const SurroundingGas& gas,
       .slip = (gas.velocity - grain.velocity).norm(),
       .density = options.density,
       .viscosity = options.viscosity};
+  if (options.mixture)
+    return drag_in_mixture(options.closure, input, gas.sauter_diameter) * grain.volume;
   return options.closure(input) * grain.volume;
 }
 

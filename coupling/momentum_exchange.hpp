@@ -11,12 +11,14 @@ struct DragOptions {
   double density = 1.0;                 // rho of the gas, kg/m^3
   double viscosity = 1.8e-5;            // mu, Pa s
   double smallest_void_fraction = 0.2;  // the closure sees at least this eps
+  bool mixture = false;                 // grains of several sizes: drag_in_mixture()
 };
 
 // The gas around a grain: the deposition kernel's mean over the cells.
 struct SurroundingGas {
-  double void_fraction;  // eps
-  Vec3 velocity;         // u, m/s
+  double void_fraction;          // eps
+  Vec3 velocity;                 // u, m/s
+  double sauter_diameter = 0.0;  // of the original particles there, m; used for mixtures
 };
 
 // B = beta V / (1 - eps), kg/s: drag on the grain is B (u - v). The closure uses the diameter of

@@ -128,6 +128,7 @@ void Smoothing::apply(CellArray<components>& cells) {
 }
 
 template void Smoothing::apply<1>(CellArray<1>&);
+template void Smoothing::apply<2>(CellArray<2>&);
 template void Smoothing::apply<4>(CellArray<4>&);
 template void Smoothing::apply<6>(CellArray<6>&);
 

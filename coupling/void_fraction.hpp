@@ -55,7 +55,7 @@ class Deposition {
   const cfd::Decomposition& decomposition_;
   Smoothing smoothing_;
   std::vector<Stencil> stencils_;
-  std::tuple<CellArray<1>, CellArray<4>, CellArray<6>> buffers_;
+  std::tuple<CellArray<1>, CellArray<2>, CellArray<4>, CellArray<6>> buffers_;
 };
 
 }  // namespace gasgrain::coupling

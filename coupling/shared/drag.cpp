@@ -17,6 +17,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "coupling/shared/error.hpp"
 
@@ -63,10 +64,12 @@ struct NamedClosure {
   DragClosure closure;
 };
 
-constexpr std::array<NamedClosure, 5> closures{{{"gidaspow", drag_gidaspow},
+constexpr std::array<NamedClosure, 7> closures{{{"gidaspow", drag_gidaspow},
+                                                {"gidaspow-blended", drag_gidaspow_blended},
                                                 {"difelice", drag_difelice},
                                                 {"beetstra", drag_beetstra},
                                                 {"koch-hill", drag_koch_hill},
+                                                {"tenneti", drag_tenneti},
                                                 {"schiller-naumann", drag_schiller_naumann}}};
 
 }  // namespace
@@ -74,6 +77,16 @@ constexpr std::array<NamedClosure, 5> closures{{{"gidaspow", drag_gidaspow},
 double drag_gidaspow(const DragInput& input) {
   check(input);
   return input.void_fraction <= dense_limit ? ergun(input) : wen_yu(input);
+}
+
+// psi Wen-Yu + (1 - psi) Ergun, psi = 1/2 + atan(262.5 (eps - 0.8)) / pi. Huilin & Gidaspow, Chem.
+// Eng. Sci. 58 (2003) 3777.
+double drag_gidaspow_blended(const DragInput& input) {
+  check(input);
+  constexpr double steepness = 150.0 * 1.75;
+  const double share =
+      0.5 + std::atan(steepness * (input.void_fraction - dense_limit)) / std::numbers::pi;
+  return share * wen_yu(input) + (1.0 - share) * ergun(input);
 }
 
 // C_D = (0.63 + 4.8/sqrt(Re))^2 (Dallavalle), force per volume 3/4 C_D rho |u-v| eps^(2-chi) / d0,
@@ -118,9 +131,33 @@ double drag_koch_hill(const DragInput& input) {
   return stokes(input) * eps * eps * (f0 + 0.5 * f3 * reynolds_number(input));
 }
 
+// beta/(1-eps) = 18 mu eps^2/d0^2 F,  phi = 1 - eps,
+// F = (1 + 0.15 Re^0.687)/eps^3 + 5.81 phi/eps^3 + 0.48 phi^(1/3)/eps^4
+//   + phi^3 Re (0.95 + 0.61 phi^3/eps^2).
+// Tenneti, Garg & Subramaniam, Int. J. Multiphase Flow 37 (2011) 1072.
+double drag_tenneti(const DragInput& input) {
+  check(input);
+  const double eps = input.void_fraction, phi = 1.0 - eps, reynolds = reynolds_number(input);
+  const double cube = phi * phi * phi;
+  const double f = (stokes_multiple(reynolds) + 5.81 * phi) / (eps * eps * eps) +
+                   0.48 * std::cbrt(phi) / std::pow(eps, 4) +
+                   cube * reynolds * (0.95 + 0.61 * cube / (eps * eps));
+  return stokes(input) * eps * eps * f;
+}
+
 double drag_schiller_naumann(const DragInput& input) {
   check(input);
   return stokes(input) * stokes_multiple(reynolds_number(input));
+}
+
+// van der Hoef, Beetstra & Kuipers, J. Fluid Mech. 528 (2005) 233, and Beetstra et al. above.
+double drag_in_mixture(DragClosure closure, const DragInput& input, double sauter_diameter) {
+  GASGRAIN_ASSERT(sauter_diameter > 0.0);
+  const double y = input.diameter / sauter_diameter, eps = input.void_fraction;
+  DragInput mean = input;
+  mean.diameter = sauter_diameter;
+  // forces as eps y + phi y^2, volumes as y^3
+  return closure(mean) * (eps / y + 1.0 - eps) / y;
 }
 
 DragClosure find_drag_closure(const std::string& name) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cfd/loops.hpp"
@@ -129,6 +130,41 @@ TEST(GasCoupling, divides_a_long_interval_and_keeps_the_drag_exchange_exact) {
   EXPECT_EQ(report.gas_steps, 4);
   EXPECT_LT(report.third_law_residual, 1e-12);
   EXPECT_LT(report.pressure_residual, 0.02);
+}
+
+// Equal grains are a mixture with d_m = d; of unlike ones momentum is exchanged as exactly.
+TEST(GasCoupling, drags_mixtures_by_their_sauter_diameter) {
+  const CoupledCase plain(bed), mixed(std::string(bed) + "[coupling]\nmixture = \"sauter\"\n");
+  std::vector<Vec3> forces[2];
+  for (const CoupledCase* given : {&plain, &mixed}) {
+    GasCoupling coupling(given->gas, given->options, MPI_COMM_WORLD);
+    DealtGrains grains(bed_grains(), MPI_COMM_WORLD);
+    coupling.begin(grains.forces, grains.mine());
+    coupling.exchange(grains.forces, grains.mine(), 1e-4);
+    forces[given == &mixed] = grains.forces;
+  }
+  double largest = 0.0;
+  for (const Vec3& force : forces[0]) largest = std::max(largest, force.norm());
+  for (std::size_t n = 0; n < forces[0].size(); ++n)
+    EXPECT_LT((forces[1][n] - forces[0][n]).norm(), 1e-9 * largest);
+
+  std::vector<GrainRecord> unlike = bed_grains();
+  for (std::size_t n = 0; n < unlike.size(); n += 2) unlike[n].original_diameter *= 0.5;
+  double drag[2];  // mean vertical force of the small ones
+  for (const CoupledCase* given : {&plain, &mixed}) {
+    GasCoupling coupling(given->gas, given->options, MPI_COMM_SELF);
+    std::vector<Vec3> on_grains(unlike.size(), Vec3::Zero());
+    coupling.begin(on_grains, unlike);
+    const ExchangeReport report = coupling.exchange(on_grains, unlike, 1e-4);
+    EXPECT_LT(report.third_law_residual, 1e-12);
+    double sum = 0.0;
+    for (std::size_t n = 0; n < unlike.size(); n += 2) sum += on_grains[n][2];
+    drag[given == &mixed] = sum;
+  }
+  // a small grain feels less than in a bed of small grains: by (1 - eps)(1 - y), here about 7 %, of
+  // the drag, which is most of the force
+  EXPECT_LT(drag[1], 0.97 * drag[0]);
+  EXPECT_GT(drag[1], 0.92 * drag[0]);
 }
 
 TEST(GasCoupling, one_way_leaves_the_gas_alone) {

@@ -131,7 +131,7 @@ double dimensionless(DragClosure closure, double void_fraction, double reynolds)
 
 TEST(DragClosures, OfASingleSlowSphereAreStokes) {
   for (const DragClosure closure :
-       {drag_gidaspow, drag_beetstra, drag_koch_hill, drag_schiller_naumann}) {
+       {drag_gidaspow, drag_beetstra, drag_koch_hill, drag_tenneti, drag_schiller_naumann}) {
     EXPECT_DOUBLE_EQ(dimensionless(closure, 1.0, 0.0), 18.0);
     EXPECT_NEAR(dimensionless(closure, 1.0, 1e-8), 18.0, 1e-3);
   }
@@ -141,7 +141,8 @@ TEST(DragClosures, OfASingleSlowSphereAreStokes) {
 
 TEST(DragClosures, OfASingleSphereFollowTheStandardDragCurve) {
   // C_D of a sphere: 4.1 at Re 10, 1.09 at Re 100 (Clift, Grace & Weber 1978)
-  for (const DragClosure closure : {drag_gidaspow, drag_difelice, drag_schiller_naumann}) {
+  for (const DragClosure closure :
+       {drag_gidaspow, drag_gidaspow_blended, drag_difelice, drag_tenneti, drag_schiller_naumann}) {
     EXPECT_NEAR(dimensionless(closure, 1.0, 10) / (0.75 * 10), 4.1, 0.15 * 4.1);
     EXPECT_NEAR(dimensionless(closure, 1.0, 100) / (0.75 * 100), 1.09, 0.15 * 1.09);
   }
@@ -151,7 +152,8 @@ TEST(DragClosures, OfASlowDenseBedLieBetweenErgunAndCarman) {
   // constant (1-eps)/eps with 150 (Ergun) to 180 (Carman), and 15 % for a fit over all void
   // fractions
   const double shape = 0.58 / 0.42;
-  for (const DragClosure closure : {drag_gidaspow, drag_difelice, drag_beetstra, drag_koch_hill}) {
+  for (const DragClosure closure :
+       {drag_gidaspow, drag_difelice, drag_beetstra, drag_koch_hill, drag_tenneti}) {
     EXPECT_GT(dimensionless(closure, 0.42, 0.0), 0.85 * 150 * shape);
     EXPECT_LT(dimensionless(closure, 0.42, 0.0), 1.15 * 180 * shape);
   }
@@ -161,7 +163,7 @@ TEST(DragClosures, OfASlowDenseBedLieBetweenErgunAndCarman) {
 TEST(DragClosures, OfADenseBedAgreeWithErgunAtModerateReynolds) {
   for (const double reynolds : {1.0, 10.0, 100.0}) {
     const double ergun = dimensionless(drag_gidaspow, 0.42, reynolds);
-    for (const DragClosure closure : {drag_difelice, drag_beetstra, drag_koch_hill}) {
+    for (const DragClosure closure : {drag_difelice, drag_beetstra, drag_koch_hill, drag_tenneti}) {
       EXPECT_NEAR(dimensionless(closure, 0.42, reynolds), ergun, 0.3 * ergun) << reynolds;
     }
   }
@@ -170,6 +172,58 @@ TEST(DragClosures, OfADenseBedAgreeWithErgunAtModerateReynolds) {
 TEST(DragClosures, KochHillJoinsItsBranchesAtFourTenths) {
   const double below = dimensionless(drag_koch_hill, 0.6 + 1e-9, 0.0);
   EXPECT_NEAR(dimensionless(drag_koch_hill, 0.6 - 1e-9, 0.0) / below, 1.0, 0.02);
+}
+
+// The formula in print, normalized by 3 pi mu d eps U, at phi = 0.3 and Re = 100:
+// F_isol = 1 + 0.15 * 100^0.687 = 4.5489..., the other terms by hand.
+TEST(DragClosures, TennetiIsTheFormulaInPrint) {
+  const double eps = 0.7, phi = 0.3;
+  const double isolated = (1 + 0.15 * std::pow(100, 0.687)) / (eps * eps * eps);
+  const double crowded = 5.81 * phi / (eps * eps * eps) + 0.48 * std::cbrt(phi) / std::pow(eps, 4);
+  const double inertia = 0.027 * 100 * (0.95 + 0.61 * 0.027 / 0.49);
+  EXPECT_NEAR(dimensionless(drag_tenneti, eps, 100),
+              18 * eps * eps * (isolated + crowded + inertia), 1e-9);
+  EXPECT_NEAR(isolated + crowded + inertia, 22.33, 0.01);
+}
+
+TEST(DragClosures, BlendedGidaspowJoinsErgunAndWenYu) {
+  const double below = dimensionless(drag_gidaspow, 0.8, 10);
+  const double above = dimensionless(drag_gidaspow, 0.8 + 1e-12, 10);
+  EXPECT_GT(std::abs(below - above), 0.05 * above);
+  EXPECT_NEAR(dimensionless(drag_gidaspow_blended, 0.8, 10), 0.5 * (below + above), 1e-6);
+  EXPECT_NEAR(dimensionless(drag_gidaspow_blended, 0.4, 10), dimensionless(drag_gidaspow, 0.4, 10),
+              0.005 * dimensionless(drag_gidaspow, 0.4, 10));
+  for (double eps = 0.7; eps < 0.9; eps += 0.001) {
+    EXPECT_NEAR(dimensionless(drag_gidaspow_blended, eps, 10),
+                dimensionless(drag_gidaspow_blended, eps + 1e-4, 10), 0.03 * above);
+  }
+}
+
+// beta/(1-eps) of a mixture of two sizes.
+TEST(DragInMixture, HasTheRightLimits) {
+  const double small = 1e-4, large = 3e-4, mean = 2e-4;
+  const auto drag_of = [&](double diameter, double eps) {
+    return drag_in_mixture(drag_gidaspow, {eps, diameter, 0.0, rho, mu}, mean);
+  };
+  // alone: Stokes of its own diameter
+  EXPECT_NEAR(drag_of(small, 1.0), 18 * mu / (small * small), 1e-9);
+  EXPECT_NEAR(drag_of(large, 1.0), 18 * mu / (large * large), 1e-9);
+  // equal grains: the closure
+  EXPECT_DOUBLE_EQ(drag_of(mean, 0.45), drag_gidaspow({0.45, mean, 0.0, rho, mu}));
+}
+
+TEST(DragInMixture, OfADenseBedAddsUpToNearlyThatOfTheMeanGrain) {
+  // half the volume each of two sizes: 1/d_m = (1/d_1 + 1/d_2)/2; the dense part is exactly that
+  // of the mean grain, the dilute part larger by eps times the variance of 1/y
+  const double d1 = 1e-4, d2 = 2e-4, mean = 2.0 / (1.0 / d1 + 1.0 / d2), eps = 0.4;
+  double sum = 0.0, square = 0.0;
+  for (const double d : {d1, d2}) {
+    sum += 0.5 * drag_in_mixture(drag_gidaspow, {eps, d, 0.1, rho, mu}, mean);
+    square += 0.5 * mean * mean / (d * d);
+  }
+  const double alike = drag_gidaspow({eps, mean, 0.1, rho, mu});
+  EXPECT_NEAR(sum / alike, (1 - eps) + eps * square, 1e-12);
+  EXPECT_LT(sum / alike, 1.05);
 }
 
 TEST(DragClosures, AreFoundByTheirNames) {
