@@ -89,6 +89,7 @@ void check_void_fraction(const GasDomain& domain, const Field& void_fraction) {
 FaceMedium make_face_medium(const GasDomain& domain) {
   FaceMedium medium;
   medium.cell_void_fraction = Field(domain.size(), 1.0);
+  medium.edges = make_edge_void_fraction(domain);
   for (int d = 0; d < 3; ++d) {
     medium.void_fraction[d] = Field(domain.size(), 1.0);
     medium.momentum_exchange[d] = Field(domain.size());
@@ -109,6 +110,7 @@ void update(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains) {
     if (domain.walls.wall_fraction(i, j, k) == 1.0) medium.cell_void_fraction(i, j, k) = 1.0;
   });
   fill_scalar_ghosts(domain, medium.cell_void_fraction);
+  update(medium.edges, domain, medium.cell_void_fraction);
   fill_ghosts(domain.decomposition, grains.momentum_exchange);
   fill_ghosts(domain.decomposition, grains.exchange_momentum);
   for (int d = 0; d < 3; ++d) {

@@ -1,6 +1,7 @@
 // The grains as the faces of the gas see them: void fraction and drag.
 #pragma once
 
+#include "cfd/edge_void_fraction.hpp"
 #include "cfd/gas_domain.hpp"
 
 namespace gasgrain::cfd {
@@ -13,6 +14,7 @@ struct FaceMedium {
   bool has_grains = false;
   Field cell_void_fraction;       // eps, ghosts filled (outside the grid: the value inside)
   VectorField void_fraction;      // eps_f on faces, also on the first two layers of ghost faces
+  EdgeVoidFraction edges;         // eps on cell edges
   VectorField momentum_exchange;  // B_f on owned faces, kg m^-3 s^-1
   VectorField exchange_momentum;  // (B v)_f on owned faces, kg m^-2 s^-2
 };

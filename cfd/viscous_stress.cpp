@@ -1,6 +1,5 @@
-// Normal stresses sit in cell centres, shear stresses on cell edges, where the void fraction is the
-// mean of the open parts of the four cells around. The full stress is needed: with a varying void
-// fraction div u is not zero and the transposed part does not vanish.
+// Normal stresses sit in cell centres, shear stresses on cell edges. The full stress is needed:
+// with a varying void fraction div u is not zero and the transposed part does not vanish.
 //
 // The normal stress of an outlet face does not change across its half control volume.
 #include "cfd/viscous_stress.hpp"
@@ -9,12 +8,12 @@ namespace gasgrain::cfd {
 
 namespace {
 
-// Void fraction on cell edges from the open volumes of the cells.
+// Void fraction on the edge below cell n in the directions of strides a and b.
 struct EdgeMean {
-  const double* open;  // 1 - alpha
-  const double* gas;   // (1 - alpha) eps
+  const double* share;
+  const double* gas;
   double operator()(std::ptrdiff_t n, std::ptrdiff_t a, std::ptrdiff_t b) const {
-    const double volume = open[n] + open[n - a] + open[n - b] + open[n - a - b];
+    const double volume = share[n] + share[n - a] + share[n - b] + share[n - a - b];
     return volume > 0.0 ? (gas[n] + gas[n - a] + gas[n - b] + gas[n - a - b]) / volume : 1.0;
   }
 };
@@ -80,9 +79,8 @@ void add_viscous_stress(VectorField& slope, const GasDomain& domain, const FaceM
     add(slope, domain, medium, NoGrains{}, velocity);
     return;
   }
-  Field gas = domain.open_share;
-  for (std::size_t n = 0; n < gas.count(); ++n) gas[n] *= medium.cell_void_fraction[n];
-  add(slope, domain, medium, EdgeMean{domain.open_share.data(), gas.data()}, velocity);
+  add(slope, domain, medium, EdgeMean{medium.edges.share.data(), medium.edges.gas.data()},
+      velocity);
 }
 
 }  // namespace gasgrain::cfd
