@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tests/cfd/gas_fixture.hpp"
+#include "tests/verification/report.hpp"
 
 namespace gasgrain::cfd {
 namespace {
@@ -12,11 +13,8 @@ namespace {
 using testing::bodies;
 using testing::box_case;
 using testing::set_sides;
-using testing::side;
-
-double order(double coarse, double fine) {
-  return std::log2(coarse / fine);
-}
+using verification::observed_order;
+using verification::Report;
 
 // Advances at the largest stable step times `factor` until `time`.
 void run_until(GasSolver& solver, double time, double factor = 1.0) {
@@ -38,10 +36,11 @@ double grid_wall_error(int cells) {
 }
 
 TEST(Poiseuille, flow_rate_between_grid_walls_is_second_order) {
+  Report report("poiseuille", "channel between walls on grid lines, driven by a body force");
   const double e8 = grid_wall_error(8), e16 = grid_wall_error(16), e32 = grid_wall_error(32);
-  EXPECT_NEAR(order(e8, e16), 2.0, 0.05);
-  EXPECT_NEAR(order(e16, e32), 2.0, 0.05);
-  EXPECT_LT(std::abs(e32), 0.003);
+  report.check("order of the flow rate", "8; 16", observed_order(e8, e16));
+  report.check("order of the flow rate", "16; 32", observed_order(e16, e32));
+  report.check("flow rate over exact", "32", 1.0 + e32);
 }
 
 // Positions of the two walls within their cells, in [0, 1).
@@ -95,18 +94,18 @@ ErrorOverOffsets body_wall_errors(int cells, int offsets) {
 }
 
 TEST(Poiseuille, body_walls_off_the_grid_lines_keep_the_flow_rate) {
+  Report report("off_grid_channel", "channel between bodies off the grid lines, 40 offsets");
   const ErrorOverOffsets e = body_wall_errors(16, 40);
-  RecordProperty("mean", std::to_string(e.mean));
-  RecordProperty("worst", std::to_string(e.worst));
-  EXPECT_LT(e.mean, 0.03);
-  EXPECT_LT(e.worst, 0.06);
+  report.check("mean error of the flow rate", "16", e.mean);
+  report.check("worst error of the flow rate", "16", e.worst);
 }
 
 TEST(Poiseuille, body_walls_off_the_grid_lines_are_second_order) {
+  Report report("off_grid_channel_order", "channel between bodies off the grid lines, 8 offsets");
   const double e8 = body_wall_errors(8, 8).mean, e16 = body_wall_errors(16, 8).mean,
                e32 = body_wall_errors(32, 8).mean;
-  EXPECT_GT(order(e8, e16), 1.8) << e8 << " " << e16;
-  EXPECT_GT(order(e16, e32), 1.8) << e16 << " " << e32;
+  report.check("order of the mean error", "8; 16", observed_order(e8, e16));
+  report.check("order of the mean error", "16; 32", observed_order(e16, e32));
 }
 
 struct Vortices {
@@ -147,24 +146,31 @@ Vortices taylor_green(int cells, Convection convection) {
   return {sums[0] / sums[1] - 1.0, std::sqrt(sums[2])};
 }
 
+void report_taylor_green(Report& report, Convection convection) {
+  std::vector<Vortices> errors;
+  for (const int cells : {16, 32, 64}) {
+    const std::string n = std::to_string(cells), grid = n + " x " + n;
+    errors.push_back(taylor_green(cells, convection));
+    report.note("energy over exact", grid, 1.0 + errors.back().energy_error);
+  }
+  report.check("energy over exact at 64 x 64", "64 x 64", 1.0 + errors[2].energy_error);
+  report.check("order of the velocity", "16; 32",
+               observed_order(errors[0].velocity_error, errors[1].velocity_error));
+  report.check("order of the velocity", "32; 64",
+               observed_order(errors[1].velocity_error, errors[2].velocity_error));
+  report.check(
+      "order of the energy", "16; 64",
+      observed_order(std::abs(errors[0].energy_error), std::abs(errors[2].energy_error), 4.0));
+}
+
 TEST(TaylorGreen, central_convection_is_second_order) {
-  const Vortices a = taylor_green(16, Convection::central),
-                 b = taylor_green(32, Convection::central),
-                 d = taylor_green(64, Convection::central);
-  EXPECT_GT(order(a.velocity_error, b.velocity_error), 1.9);
-  EXPECT_GT(order(b.velocity_error, d.velocity_error), 1.9);
-  EXPECT_GT(order(std::abs(a.energy_error), std::abs(d.energy_error)) / 2.0, 1.8)
-      << a.energy_error << " " << b.energy_error << " " << d.energy_error;
-  EXPECT_LT(std::abs(d.energy_error), 1e-3);
+  Report report("taylor_green", "Taylor-Green vortices, central convection");
+  report_taylor_green(report, Convection::central);
 }
 
 TEST(TaylorGreen, van_leer_convection_converges) {
-  const Vortices a = taylor_green(16, Convection::van_leer),
-                 b = taylor_green(32, Convection::van_leer),
-                 d = taylor_green(64, Convection::van_leer);
-  EXPECT_GT(order(a.velocity_error, b.velocity_error), 1.5);
-  EXPECT_GT(order(b.velocity_error, d.velocity_error), 1.5);
-  EXPECT_LT(std::abs(d.energy_error), 5e-3);
+  Report report("taylor_green_van_leer", "Taylor-Green vortices, van Leer convection");
+  report_taylor_green(report, Convection::van_leer);
 }
 
 }  // namespace
