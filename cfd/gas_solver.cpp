@@ -32,6 +32,7 @@
 #include "cfd/ghost_values.hpp"
 #include "cfd/halo_exchange.hpp"
 #include "cfd/immersed_boundary.hpp"
+#include "cfd/interval_means.hpp"
 #include "cfd/momentum_budget.hpp"
 #include "cfd/projection.hpp"
 #include "cfd/time_step.hpp"
@@ -66,6 +67,9 @@ struct GasSolver::State {
   void evaluate_slope();
   void predict(double dt, const AdamsBashforth& weights);
   void check_finite(double dt, double speed_before) const;
+  // Face values as the grains of a cell see them.
+  void sample(VectorField& velocity, VectorField& pressure_gradient, const VectorField& u,
+              const VectorField& gradient) const;
   void visit(StateArchive& archive);
   void visit_grains(StateArchive& archive);
   void rebuild();
@@ -80,6 +84,7 @@ struct GasSolver::State {
   Vec3 speeds = Vec3::Zero();  // largest |u| per direction of all ranks, m/s
   Field pressure;
   Slope slope, old_slope;
+  IntervalMeans means;
   double time = 0.0, previous_dt = 0.0;
 };
 
@@ -240,6 +245,7 @@ StepReport GasSolver::advance(double dt) {
   add_forces(budget, domain, s.medium, s.velocity, s.projection.pressure_gradient(), dt);
   add_pressure_reactions(budget, domain, s.pressure, s.projection.pressure_gradient(), dt);
   sum_over_ranks(domain.decomposition, budget);
+  if (s.means.started()) s.means.add(s.medium, s.velocity, s.projection.pressure_gradient(), dt);
   return report;
 }
 
@@ -287,31 +293,45 @@ double GasSolver::largest_stable_step() const {
                                                                   numerics.courant_number));
 }
 
-void GasSolver::sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const {
-  const GasDomain& domain = state_->domain;
-  const VectorField& gradient = state_->projection.pressure_gradient();
+void GasSolver::State::sample(VectorField& velocity_at_cells, VectorField& gradient_at_cells,
+                              const VectorField& u, const VectorField& gradient) const {
   for (int d = 0; d < 3; ++d) {
-    const Field& u = state_->velocity[d];
-    velocity[d] = pressure_gradient[d] = Field(domain.size());
+    velocity_at_cells[d] = gradient_at_cells[d] = Field(domain.size());
     for_each_cell(domain.size(), [&](int i, int j, int k) {
-      const std::ptrdiff_t n = u.index(i, j, k), above = n + u.stride(d);
+      const std::ptrdiff_t n = u[d].index(i, j, k), above = n + u[d].stride(d);
       const double lower = domain.walls.lower_share[d][n], upper = domain.walls.upper_share[d][n];
       const bool free = lower + upper > 0.0;
-      velocity[d][n] = free ? lower * u[n] + upper * u[above] : 0.5 * (u[n] + u[above]);
-      pressure_gradient[d][n] = lower * gradient[d][n] + upper * gradient[d][above];
+      velocity_at_cells[d][n] =
+          free ? lower * u[d][n] + upper * u[d][above] : 0.5 * (u[d][n] + u[d][above]);
+      gradient_at_cells[d][n] = lower * gradient[d][n] + upper * gradient[d][above];
     });
   }
-  fill_ghosts(domain.decomposition, velocity);
-  fill_ghosts(domain.decomposition, pressure_gradient);
+  fill_ghosts(domain.decomposition, velocity_at_cells);
+  fill_ghosts(domain.decomposition, gradient_at_cells);
   if (!domain.any_lenders) return;
   for (int d = 0; d < 3; ++d) {
     for (const Lender& lender : domain.lenders[d]) {
-      velocity[d][lender.cell] = velocity[d][lender.host];
-      pressure_gradient[d][lender.cell] = pressure_gradient[d][lender.host];
+      velocity_at_cells[d][lender.cell] = velocity_at_cells[d][lender.host];
+      gradient_at_cells[d][lender.cell] = gradient_at_cells[d][lender.host];
     }
   }
-  fill_ghosts(domain.decomposition, velocity);
-  fill_ghosts(domain.decomposition, pressure_gradient);
+  fill_ghosts(domain.decomposition, velocity_at_cells);
+  fill_ghosts(domain.decomposition, gradient_at_cells);
+}
+
+void GasSolver::sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const {
+  state_->sample(velocity, pressure_gradient, state_->velocity,
+                 state_->projection.pressure_gradient());
+}
+
+void GasSolver::start_means() {
+  state_->means.start(state_->domain.size());
+}
+
+void GasSolver::sample_means_at_cells(VectorField& velocity, VectorField& pressure_gradient) {
+  IntervalMeans& means = state_->means;
+  means.finish(state_->medium);
+  state_->sample(velocity, pressure_gradient, means.velocity(), means.pressure_gradient());
 }
 
 double GasSolver::side_pressure(int direction, int side) const {

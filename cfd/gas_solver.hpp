@@ -95,6 +95,10 @@ class GasSolver {
   // gas exchange opposite forces. In directions without a free face: the wall's velocity and 0.
   // Ghosts are filled as by fill_ghosts.
   void sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const;
+  // The same for an interval of several steps: start_means(), the steps, sample_means_at_cells().
+  // See cfd/interval_means.hpp.
+  void start_means();
+  void sample_means_at_cells(VectorField& velocity, VectorField& pressure_gradient);
 
   // Mean pressure over the open area of a side of the grid that is not periodic, Pa, extrapolated
   // from the control volumes of the faces next to it so that the momentum balance closes.

@@ -28,8 +28,7 @@ struct ExchangeReport {
   Vec3 drag_on_walls = Vec3::Zero();    // N s: drag in directions in which a cell has no free face
   double third_law_residual = 0.0;      // |impulse of drag on grains + on gas + on walls| over the
                                         // sum of magnitudes of the grains' impulses
-  double pressure_residual = 0.0;       // the same for -V grad p; not zero only with several gas
-                                        // steps, whose pressure acts on a moving void fraction
+  double pressure_residual = 0.0;       // the same for -V grad p
   IntervalLimits limits{};
   double gas_seconds = 0.0;  // wall time in the gas solver on this rank
 };

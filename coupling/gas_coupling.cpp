@@ -12,8 +12,8 @@
 // with the shares by which it samples faces at cells. So sum F_drag dt is the momentum that the gas
 // lost, to round-off, whatever the state. Directions in which a cell has no free face (a grid one
 // cell deep) hold the gas at the wall's velocity: there the drag goes to the wall. When the
-// interval exceeds the gas solver's largest step, it is divided: eps changes linearly, and the mean
-// of the sampled u and grad p makes the drag exchange exact again.
+// interval exceeds the gas solver's largest step, it is divided: eps changes linearly, and the
+// grains see the means of u and grad p that make both exchanges exact (cfd/interval_means.hpp).
 #include "coupling/gas_coupling.hpp"
 
 #include <algorithm>
@@ -36,18 +36,6 @@ double largest_spacing(const cfd::Grid& grid) {
     if (grid.cells[d] > 1) largest = std::max(largest, grid.spacing()[d]);
   }
   return largest > 0 ? largest : grid.spacing().minCoeff();
-}
-
-std::array<cfd::Field*, 6> components(cfd::VectorField& a, cfd::VectorField& b) {
-  return {&a[0], &a[1], &a[2], &b[0], &b[1], &b[2]};
-}
-
-void add(cfd::Field& sum, const cfd::Field& field) {
-  for (std::size_t n = 0; n < sum.count(); ++n) sum[n] += field[n];
-}
-
-void scale(cfd::Field& field, double factor) {
-  for (std::size_t n = 0; n < field.count(); ++n) field[n] *= factor;
 }
 
 void allreduce(std::span<double> values, MPI_Op operation, MPI_Comm communicator) {
@@ -206,8 +194,7 @@ void GasCoupling::advance_gas(double interval) {
   const int steps =
       std::max(1, static_cast<int>(std::ceil(interval / gas_.largest_stable_step() * (1 - 1e-9))));
   const cfd::Field old_void_fraction = gas_.grains().void_fraction;
-  cfd::VectorField velocity_sum = velocity_, gradient_sum = pressure_gradient_;
-  for (cfd::Field* field : components(velocity_sum, gradient_sum)) field->fill(0.0);
+  if (steps > 1) gas_.start_means();
   for (int s = 1; s <= steps; ++s) {
     const double share = double(s) / steps;
     cfd::Field& eps = gas_.grains().void_fraction;
@@ -220,15 +207,11 @@ void GasCoupling::advance_gas(double interval) {
     report_.divergence = std::max(report_.divergence, step.divergence);
     report_.removed_mean = std::max(report_.removed_mean, step.removed_mean);
     add(report_.gas_momentum, step.momentum);
-    gas_.sample_at_cells(velocity_, pressure_gradient_);
-    for (int d = 0; d < 3; ++d) {
-      add(velocity_sum[d], velocity_[d]);
-      add(gradient_sum[d], pressure_gradient_[d]);
-    }
   }
-  velocity_ = std::move(velocity_sum);
-  pressure_gradient_ = std::move(gradient_sum);
-  for (cfd::Field* field : components(velocity_, pressure_gradient_)) scale(*field, 1.0 / steps);
+  if (steps > 1)
+    gas_.sample_means_at_cells(velocity_, pressure_gradient_);
+  else
+    gas_.sample_at_cells(velocity_, pressure_gradient_);
   report_.gas_steps = steps;
   report_.interval = interval;
   report_.gas_seconds = MPI_Wtime() - start;
