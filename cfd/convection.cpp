@@ -73,14 +73,6 @@ void leave(Field& slope, const IndexBox& box, const Field& flux, const Field& ve
   });
 }
 
-void mask(Field& slope, const GasDomain& domain, int d) {
-  const double* part = domain.walls.takes_part[d].data();
-  double* result = slope.data();
-  for_each_row(all_faces(domain, d), slope, [=](std::ptrdiff_t row, int length) {
-    for (std::ptrdiff_t n = row; n < row + length; ++n) result[n] *= part[n];
-  });
-}
-
 template <class Scheme>
 void add(VectorField& slope, const GasDomain& domain, const VectorField& flux,
          const VectorField& velocity) {
@@ -99,7 +91,6 @@ void add(VectorField& slope, const GasDomain& domain, const VectorField& flux,
       leave(slope[d], plane_of(domain, d, domain.side_plane(d, side)), flux[d], velocity[d],
             scale(d), inwards);
     }
-    mask(slope[d], domain, d);
   }
 }
 

@@ -48,8 +48,9 @@ GasDomain::GasDomain(const GasCase& gas_case, MPI_Comm communicator)
     : decomposition(communicator, gas_case.grid, periodic_directions(gas_case.boundaries),
                     gas_case.numerics.ranks),
       boundaries(gas_case.boundaries),
+      bodies(gas_case.bodies),
       gas(gas_case.gas),
-      walls(make_wall_geometry(decomposition, boundaries, gas_case.bodies)),
+      walls(make_wall_geometry(decomposition, boundaries, bodies)),
       spacing(gas_case.grid.spacing()),
       open_share(size()) {
   for (std::size_t n = 0; n < open_share.count(); ++n) open_share[n] = 1 - walls.wall_fraction[n];

@@ -23,8 +23,10 @@ struct GasDomain {
 
   Decomposition decomposition;
   Boundaries boundaries;
+  std::vector<Body> bodies;
   GasProperties gas;
   WallGeometry walls;
+  double walls_time = 0.0;     // s: the bodies stand where they are then
   Vec3 spacing;                // m
   std::array<bool, 3> solved;  // component d has a face that takes part, on some rank
   std::array<bool, 3> varies;  // something can change along direction d
@@ -35,6 +37,15 @@ struct GasDomain {
   VectorField joint_share;                     // cells: 1 - alpha with that of their lenders
 
   const Index3& size() const { return decomposition.block().size; }
+  // Position of the centre of a cell, or of a face of direction d, at local indices, m.
+  Vec3 cell_centre(int i, int j, int k) const {
+    const Index3& first = decomposition.block().lower;
+    const Vec3 steps(i + first[0] + 0.5, j + first[1] + 0.5, k + first[2] + 0.5);
+    return decomposition.grid().lower + steps.cwiseProduct(spacing);
+  }
+  Vec3 face_centre(int d, int i, int j, int k) const {
+    return cell_centre(i, j, k) - 0.5 * spacing[d] * Vec3::Unit(d);
+  }
   double face_area(int d) const { return spacing.prod() / spacing[d]; }
   double cell_volume() const { return spacing.prod(); }
 

@@ -26,6 +26,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "cfd/body_loads.hpp"
 #include "cfd/convection.hpp"
 #include "cfd/face_medium.hpp"
 #include "cfd/gas_domain.hpp"
@@ -66,6 +67,7 @@ struct GasSolver::State {
   void set_velocity(const std::function<Vec3(const Vec3&)>& function);
   void evaluate_slope();
   void predict(double dt, const AdamsBashforth& weights);
+  void measure_loads(MomentumBudget& budget, double dt, const AdamsBashforth& weights);
   void check_finite(double dt, double speed_before) const;
   // Face values as the grains of a cell see them.
   void sample(VectorField& velocity, VectorField& pressure_gradient, const VectorField& u,
@@ -79,6 +81,7 @@ struct GasSolver::State {
   FaceMedium medium;
   GrainPhase grains;
   ImmersedBoundary immersed_boundary;
+  BodyLoads loads;
   Projection projection;
   VectorField velocity;
   Vec3 speeds = Vec3::Zero();  // largest |u| per direction of all ranks, m/s
@@ -94,6 +97,7 @@ GasSolver::State::State(const GasCase& given, MPI_Comm communicator)
       medium(make_face_medium(domain)),
       grains(no_grains(domain.size())),
       immersed_boundary(domain),
+      loads(domain),
       projection(domain, given.numerics),
       velocity(fields(domain.size())),
       pressure(domain.size()) {
@@ -145,6 +149,17 @@ void GasSolver::State::predict(double dt, const AdamsBashforth& weights) {
       velocity[d][n] = (velocity[d][n] + dt * (force / (eps * rho) + g)) / (1.0 + drag_number);
     });
   }
+}
+
+// Adds this rank's share of body_stress to the budget.
+void GasSolver::State::measure_loads(MomentumBudget& budget, double dt,
+                                     const AdamsBashforth& weights) {
+  loads.start(immersed_boundary);
+  loads.add_stress(slope.total, dt * weights.now);
+  loads.add_stress(old_slope.total, dt * weights.before);
+  budget.body_stress = -loads.stress_impulse();
+  loads.add_pressure(pressure, projection.pressure_gradient(), dt);
+  loads.finish(dt);
 }
 
 void GasSolver::State::check_finite(double dt, double speed_before) const {
@@ -242,6 +257,7 @@ StepReport GasSolver::advance(double dt) {
       momentum_with_new_void - momentum_before +
       dt * (weights.now * s.slope.convection + weights.before * s.old_slope.convection);
   budget.viscous = dt * (weights.now * s.slope.viscous + weights.before * s.old_slope.viscous);
+  if (domain.walls.has_bodies) s.measure_loads(budget, dt, weights);
   add_forces(budget, domain, s.medium, s.velocity, s.projection.pressure_gradient(), dt);
   add_pressure_reactions(budget, domain, s.pressure, s.projection.pressure_gradient(), dt);
   sum_over_ranks(domain.decomposition, budget);
@@ -264,6 +280,9 @@ const WallGeometry& GasSolver::walls() const {
 }
 GrainPhase& GasSolver::grains() {
   return state_->grains;
+}
+const std::vector<BodyLoad>& GasSolver::body_loads() const {
+  return state_->loads.loads();
 }
 double GasSolver::time() const {
   return state_->time;

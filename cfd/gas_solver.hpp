@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 
+#include "cfd/body_load.hpp"
 #include "cfd/field.hpp"
 #include "cfd/gas_case.hpp"
 #include "cfd/grid.hpp"
@@ -42,6 +43,9 @@ struct MomentumBudget {
   // cells' pressures: the force of the sides of the grid on gas and grains, and that of the bodies.
   Vec3 side_pressure = Vec3::Zero();
   Vec3 body_pressure = Vec3::Zero();
+  Vec3 body_stress =
+      Vec3::Zero();  // share of convection and viscous that passes the surface of
+                     // bodies: -(body + body_pressure + body_stress)/dt is their load
 };
 
 struct StepReport {
@@ -85,6 +89,10 @@ class GasSolver {
   // accept_void_fraction_as_old() was given belongs to it: call this before setting them anew. A
   // solver that restores must be of the same case, on any number of ranks.
   void visit_state(StateArchive& archive);
+
+  // Force and torque on every body of the case, in its order, during the last advance(): means over
+  // the step, all ranks.
+  const std::vector<BodyLoad>& body_loads() const;
 
   const VectorField& velocity() const;  // u on faces, m/s (interstitial)
   const Field& pressure() const;        // p in cells, Pa

@@ -52,7 +52,14 @@ ImmersedBoundary::ImmersedBoundary(const GasDomain& domain) : varies_(domain.var
       const std::ptrdiff_t n = part.index(i, j, k);
       const double phi = domain.walls.distance[d][n];
       if (part[n] == 0.0 || phi >= dx) return;
-      Face face{n, n, Vec3::Zero(), phi, domain.walls.wall_velocity[d][n]};
+      Face face{.face = n,
+                .base = n,
+                .weight = Vec3::Zero(),
+                .distance = phi,
+                .wall_velocity = domain.walls.wall_velocity[d][n],
+                .body = static_cast<int>(domain.walls.nearest_body[d][n]),
+                .position = domain.face_centre(d, i, j, k),
+                .impulse = 0.0};
       const Vec3 normal = outward_normal(domain, d, n);
       for (int e = 0; e < 3; ++e) {
         if (!varies_[e]) continue;
@@ -82,7 +89,7 @@ double ImmersedBoundary::at_point(const Face& face, const Field& velocity) const
 }
 
 Vec3 ImmersedBoundary::apply(VectorField& velocity, const GasDomain& domain,
-                             const FaceMedium& medium, double dt) const {
+                             const FaceMedium& medium, double dt) {
   Vec3 impulse = Vec3::Zero();
   const double mu = domain.gas.viscosity, rho = domain.gas.density;
   if (mu == 0.0) return impulse;
@@ -90,7 +97,7 @@ Vec3 ImmersedBoundary::apply(VectorField& velocity, const GasDomain& domain,
     Field& u = velocity[d];
     std::vector<double> changed;
     changed.reserve(faces_[d].size());
-    for (const Face& face : faces_[d]) {
+    for (Face& face : faces_[d]) {
       const double beta = medium.has_grains ? medium.momentum_exchange[d][face.face] : 0.0;
       const double eps = face_void_fraction(medium, d, face.face);
       const double phi = face.distance, wall = face.wall_velocity;
@@ -98,8 +105,9 @@ Vec3 ImmersedBoundary::apply(VectorField& velocity, const GasDomain& domain,
       const double profile = wall + phi / (phi + probe_length_) * (at_point(face, u) - wall);
       changed.push_back((1.0 - w) * u[face.face] + w * profile);
       // eps rho (1 + K) is what a change of u* is worth in the final velocity's balance
-      impulse[d] += domain.control_volume[d][face.face] * (eps * rho + dt * beta) *
-                    (changed.back() - u[face.face]);
+      face.impulse = domain.control_volume[d][face.face] * (eps * rho + dt * beta) *
+                     (changed.back() - u[face.face]);
+      impulse[d] += face.impulse;
     }
     for (std::size_t m = 0; m < changed.size(); ++m) u[faces_[d][m].face] = changed[m];
   }

@@ -14,8 +14,16 @@ class ImmersedBoundary {
 
   // Changes the predicted velocity (ghosts filled) of the faces with 0 <= phi < dx. `dt` in s.
   // Returns the momentum that this adds to the gas of this rank, N s.
-  Vec3 apply(VectorField& velocity, const GasDomain& domain, const FaceMedium& medium,
-             double dt) const;
+  Vec3 apply(VectorField& velocity, const GasDomain& domain, const FaceMedium& medium, double dt);
+
+  // visit(direction, index of the body, position [m], momentum added to the gas by the last apply()
+  // [N s]) for every face.
+  template <class Visit>
+  void for_each_impulse(Visit&& visit) const {
+    for (int d = 0; d < 3; ++d) {
+      for (const Face& face : faces_[d]) visit(d, face.body, face.position, face.impulse);
+    }
+  }
 
  private:
   struct Face {
@@ -24,6 +32,9 @@ class ImmersedBoundary {
     Vec3 weight;           // of the upper faces in each direction
     double distance;       // phi, m
     double wall_velocity;  // m/s
+    int body;              // the nearest one
+    Vec3 position;         // of the face's centre, m
+    double impulse;        // added by the last apply(), N s
   };
 
   double at_point(const Face& face, const Field& velocity) const;

@@ -132,10 +132,10 @@ void add_pressure_reactions(MomentumBudget& budget, const GasDomain& domain, con
 }
 
 void sum_over_ranks(const Decomposition& decomposition, MomentumBudget& budget) {
-  Vec3* const rows[] = {&budget.stored,       &budget.pressure,   &budget.pressure_on_grains,
-                        &budget.gravity,      &budget.convection, &budget.viscous,
-                        &budget.drag,         &budget.body,       &budget.side_pressure,
-                        &budget.body_pressure};
+  Vec3* const rows[] = {&budget.stored,        &budget.pressure,   &budget.pressure_on_grains,
+                        &budget.gravity,       &budget.convection, &budget.viscous,
+                        &budget.drag,          &budget.body,       &budget.side_pressure,
+                        &budget.body_pressure, &budget.body_stress};
   std::vector<double> values;
   for (const Vec3* row : rows) values.insert(values.end(), row->data(), row->data() + 3);
   sum_over_ranks(decomposition, values);

@@ -28,7 +28,6 @@ void add_shear(Field& slope, const GasDomain& domain, const Edge& edge, const Ve
                int d, int e) {
   const double* u = velocity[d].data();
   const double* v = velocity[e].data();
-  const double* part = domain.walls.takes_part[d].data();
   double* result = slope.data();
   const std::ptrdiff_t a = slope.stride(e), c = slope.stride(d);
   const double h = domain.spacing[e], transposed = domain.solved[e] ? h / domain.spacing[d] : 0.0;
@@ -37,7 +36,7 @@ void add_shear(Field& slope, const GasDomain& domain, const Edge& edge, const Ve
     for (std::ptrdiff_t n = row; n < row + length; ++n) {
       const double hi = u[n + a] - u[n] + transposed * (v[n + a] - v[n + a - c]);
       const double lo = u[n] - u[n - a] + transposed * (v[n] - v[n - c]);
-      result[n] += part[n] * scale * (edge(n + a, a, c) * hi - edge(n, a, c) * lo);
+      result[n] += scale * (edge(n + a, a, c) * hi - edge(n, a, c) * lo);
     }
   });
 }
@@ -46,14 +45,13 @@ void add_normal_stress(Field& slope, const GasDomain& domain, const FaceMedium& 
                        const VectorField& velocity, int d) {
   const double* u = velocity[d].data();
   const double* eps = medium.cell_void_fraction.data();
-  const double* part = domain.walls.takes_part[d].data();
   double* result = slope.data();
   const std::ptrdiff_t c = slope.stride(d);
   const double scale = 2.0 * domain.gas.viscosity / (domain.spacing[d] * domain.spacing[d]);
   for_each_row(inner_faces(domain, d), slope, [=](std::ptrdiff_t row, int length) {
     for (std::ptrdiff_t n = row; n < row + length; ++n) {
       const double difference = eps[n] * (u[n + c] - u[n]) - eps[n - c] * (u[n] - u[n - c]);
-      result[n] += part[n] * scale * difference;
+      result[n] += scale * difference;
     }
   });
 }

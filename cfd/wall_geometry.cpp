@@ -25,6 +25,7 @@ class GeometryBuilder {
                   const std::vector<Body>& bodies)
       : decomposition_(decomposition),
         boundaries_(boundaries),
+        all_bodies_(bodies),
         size_(decomposition.block().size),
         half_cell_(0.5 * decomposition.grid().spacing()) {
     for (const Body& body : bodies) {
@@ -92,6 +93,7 @@ class GeometryBuilder {
 
   const Decomposition& decomposition_;
   const Boundaries& boundaries_;
+  const std::vector<Body>& all_bodies_;
   Index3 size_;
   Vec3 half_cell_;
   std::vector<const Body*> bodies_;  // those that act on the gas
@@ -107,6 +109,7 @@ void GeometryBuilder::allocate() {
     walls_.open_area[d] = walls_.takes_part[d] = Field(size_);
     walls_.distance[d] = Field(size_, (grid.upper - grid.lower).norm());
     walls_.wall_velocity[d] = Field(size_);
+    walls_.nearest_body[d] = Field(size_, -1.0);
     for (Field& component : walls_.normal[d]) component = Field(size_);
     walls_.lower_share[d] = walls_.upper_share[d] = walls_.host[d] = Field(size_);
   }
@@ -163,7 +166,11 @@ void GeometryBuilder::sample_faces(int d) {
       const DistanceSample sample = solid_->sample(centre);
       walls_.distance[d][n] = sample.distance;
       for (int e = 0; e < 3; ++e) walls_.normal[d][e][n] = sample.gradient[e];
-      walls_.wall_velocity[d][n] = surface_velocity_at(nearest_body(centre), centre, 0.0)[d];
+      const Body& body = nearest_body(centre);
+      walls_.nearest_body[d][n] = static_cast<double>(&body - all_bodies_.data());
+      // inside the body as it turns, outside as its surface does
+      const Vec3 surface = centre - std::max(sample.distance, 0.0) * sample.gradient;
+      walls_.wall_velocity[d][n] = surface_velocity_at(body, surface, 0.0)[d];
     }
     walls_.open_area[d][n] = open < sliver ? 0.0 : open > 1 - sliver ? 1.0 : open;
   });

@@ -22,6 +22,7 @@ struct WallGeometry {
   std::array<VectorField, 3> normal;  // grad phi at the face centres of direction [d]
   VectorField
       wall_velocity;  // m/s, component d of the nearest body's surface velocity at faces of d
+  VectorField nearest_body;  // faces: index in the list of bodies, -1 without bodies
 
   // Faces: 1 where gas moves freely (open, centre not inside a body, flux not prescribed), else 0.
   VectorField takes_part;

@@ -49,7 +49,7 @@ void add(cfd::MomentumBudget& sum, const cfd::MomentumBudget& budget) {
   using Budget = cfd::MomentumBudget;
   for (const Row row : {&Budget::stored, &Budget::pressure, &Budget::pressure_on_grains,
                         &Budget::gravity, &Budget::convection, &Budget::viscous, &Budget::drag,
-                        &Budget::body, &Budget::side_pressure, &Budget::body_pressure}) {
+                        &Budget::body, &Budget::side_pressure, &Budget::body_pressure, &Budget::body_stress}) {
     sum.*row += budget.*row;
   }
 }

@@ -203,11 +203,13 @@ Body read_body(const ConfigTable& table, ShapeFileLoader load_file) {
   table.has("acts_on");  // known before a missing shape suggests the nearest key
   table.has("surface_velocity");
   table.has("motion");
+  table.has("torque_point");
   for (const char* key : {"spacing", "lower", "upper", "band", "cut"}) table.has(key);
   body.shape = read_shape(table, load_file);
   read_acts_on(table, body);
   body.surface_velocity = table.vector_or("surface_velocity", Vec3::Zero());
   if (table.has("motion")) body.motion = read_motion(table.table("motion"));
+  body.torque_point = table.vector_or("torque_point", body.motion.centre);
   sample_if_asked(table, body);
   table.reject_unknown_keys();
   return body;
@@ -217,6 +219,10 @@ Body read_body(const ConfigTable& table, ShapeFileLoader load_file) {
 
 Shape shape_at(const Body& body, double time) {
   return body.motion.sweeps() ? move_shape(body.shape, body.motion.pose(time)) : body.shape;
+}
+
+Vec3 torque_point_at(const Body& body, double time) {
+  return body.motion.pose(time).to_world(body.torque_point);
 }
 
 Vec3 surface_velocity_at(const Body& body, const Vec3& x, double time) {

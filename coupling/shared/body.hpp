@@ -17,10 +17,14 @@ struct Body {
   bool acts_on_grains = true;
   Vec3 surface_velocity = Vec3::Zero();  // m/s; a wall that slides in its own plane (conveyor)
   Motion motion;
+  Vec3 torque_point = Vec3::Zero();  // m, at rest: torques on the body are about it; it moves along
 };
 
 // The body's shape where it is at `time` [s]; the shape itself when it never sweeps.
 Shape shape_at(const Body& body, double time);
+
+// Where the body's torque point is at `time` [s], m.
+Vec3 torque_point_at(const Body& body, double time);
 
 // Velocity of the body's surface at x [m], m/s: of the motion plus `surface_velocity`, which turns
 // with the body.

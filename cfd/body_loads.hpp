@@ -1,0 +1,59 @@
+// Force and torque of the gas on each body.
+#pragma once
+
+#include <vector>
+
+#include "cfd/body_load.hpp"
+#include "cfd/gas_domain.hpp"
+#include "cfd/immersed_boundary.hpp"
+
+namespace gasgrain::cfd {
+
+class BodyLoads {
+ public:
+  explicit BodyLoads(const GasDomain& domain);
+
+  // Looks for the cells and faces that bodies act on; again after the walls of the domain changed.
+  void find_walls();
+
+  // Starts a step with what the immersed boundary has just done.
+  void start(const ImmersedBoundary& immersed_boundary);
+  // Adds what the stress of the gas does to the volume of the bodies: `weight` * slope on faces,
+  // N/m^3 times s. The slope must be that of all faces, also of those that do not take part.
+  void add_stress(const VectorField& slope, double weight);
+  void add_pressure(const Field& pressure, const VectorField& gradient, double dt);
+  // Divides by dt and sums over ranks. Collective.
+  void finish(double dt);
+
+  // One per body of the case, in its order; zero for bodies that do not act on the gas.
+  const std::vector<BodyLoad>& loads() const { return loads_; }
+  // Sum over the bodies of this rank before finish(): momentum given to them by stress, N s.
+  const Vec3& stress_impulse() const { return stress_impulse_; }
+
+ private:
+  // A cell whose control volumes a body changes, or a face where it does.
+  struct Cell {
+    Index3 local;
+    int body;
+    Vec3 arm;  // from the torque point to the surface next to it, m
+  };
+  struct Face {
+    std::ptrdiff_t face;
+    int body;
+    double missing;  // control volume that the body takes away, m^3
+    Vec3 arm;        // m
+  };
+
+  double undisturbed_volume(int d, const Index3& local) const;
+  Vec3 pressure_on(const Index3& local, const Field& pressure, const VectorField& gradient) const;
+  double side_term(int d, int side, std::ptrdiff_t cell, const Field& pressure,
+                   const VectorField& gradient) const;
+
+  const GasDomain& domain_;
+  std::vector<Cell> cells_;
+  std::array<std::vector<Face>, 3> faces_;
+  std::vector<BodyLoad> loads_;
+  Vec3 stress_impulse_ = Vec3::Zero();
+};
+
+}  // namespace gasgrain::cfd
