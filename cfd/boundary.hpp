@@ -1,9 +1,14 @@
-// Boundary condition of one side of the grid.
+// Boundary conditions of the sides of the grid and of patches in them, as the case file states
+// them. What holds on each face at a time: cfd/side_conditions.hpp.
 #pragma once
 
 #include <array>
 #include <string>
+#include <vector>
 
+#include "cfd/inlet_profile.hpp"
+#include "cfd/time_table.hpp"
+#include "coupling/shared/body.hpp"
 #include "coupling/shared/config_table.hpp"
 #include "coupling/shared/vec3.hpp"
 
@@ -14,16 +19,37 @@ enum class BoundaryType { no_slip, slip, inlet, outlet, periodic };
 struct Boundary {
   BoundaryType type = BoundaryType::no_slip;
   Vec3 superficial_velocity = Vec3::Zero();  // m/s, inlet: the flux eps u that enters (void
-                                             // fraction times velocity)
+                                             // fraction times velocity), mean over the faces
   Vec3 wall_velocity = Vec3::Zero();         // m/s, no_slip: velocity of the wall in its plane
   double pressure = 0.0;                     // Pa, outlet
+  InletProfile profile;                      // inlet
+  bool velocity_is_of_profile = false;       // the mean is that of the profile's table
+  TimeTable factor;                          // of the velocities and of the pressure
 };
 
 // [direction][side], side 0 = lower, 1 = upper.
 using Boundaries = std::array<std::array<Boundary, 2>, 3>;
 
-// Reads [boundary] with keys x_lower ... z_upper. Throws UserError.
+// Faces of a side of the grid with a condition of their own: those whose centre is in `region`.
+struct BoundaryPatch {
+  std::string name;
+  int direction = 0, side = 0;
+  Shape region;
+  Boundary condition;
+};
+
+inline constexpr const char* names_of_sides[3][2] = {
+    {"x_lower", "x_upper"}, {"y_lower", "y_upper"}, {"z_lower", "z_upper"}};
+
+// Reads [boundary] with keys x_lower ... z_upper; patches are left to read_patches. Throws
+// UserError.
 Boundaries read_boundaries(const ConfigTable& boundary_table);
+
+// Reads [[boundary.patch]]; a region is a shape as in [[body]] or the name of one of `bodies`.
+// Throws UserError.
+std::vector<BoundaryPatch> read_patches(const ConfigTable& boundary_table,
+                                        const Boundaries& boundaries,
+                                        const std::vector<Body>& bodies, ShapeFileLoader load_file);
 
 // Directions whose two sides are joined.
 std::array<bool, 3> periodic_directions(const Boundaries& boundaries);

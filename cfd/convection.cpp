@@ -64,11 +64,12 @@ void transport(Field& slope, const IndexBox& box, const Field& flux, const Field
 }
 
 // Normal transport on the faces of an outlet, see the head of the file.
-void leave(Field& slope, const IndexBox& box, const Field& flux, const Field& velocity,
-           double scale, std::ptrdiff_t inwards) {
-  for_each_in(box, [&](int i, int j, int k) {
-    const std::ptrdiff_t n = slope.index(i, j, k);
-    const double outflow = inwards < 0 ? flux[n] : -flux[n];
+void leave(Field& slope, const GasDomain& domain, int d, int side, const Field& flux,
+           const Field& velocity) {
+  const double scale = domain.gas.density / domain.spacing[d];
+  const std::ptrdiff_t inwards = (side == 0 ? 1 : -1) * slope.stride(d);
+  for_each_outlet_face(domain, d, side, [&](auto, auto n, const SideCondition&) {
+    const double outflow = side == 0 ? -flux[n] : flux[n];
     slope[n] -= scale * std::max(outflow, 0.0) * (velocity[n] - velocity[n + inwards]);
   });
 }
@@ -86,10 +87,7 @@ void add(VectorField& slope, const GasDomain& domain, const VectorField& flux,
       transport<Scheme>(slope[d], box, flux[e], velocity[d], strides, scale(e));
     }
     for (int side = 0; side < 2; ++side) {
-      if (!domain.is_outlet(d, side) || !domain.decomposition.at_boundary(d, side)) continue;
-      const std::ptrdiff_t inwards = (side == 0 ? 1 : -1) * slope[d].stride(d);
-      leave(slope[d], plane_of(domain, d, domain.side_plane(d, side)), flux[d], velocity[d],
-            scale(d), inwards);
+      leave(slope[d], domain, d, side, flux[d], velocity[d]);
     }
   }
 }

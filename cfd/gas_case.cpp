@@ -117,6 +117,8 @@ GasCase read_gas_case(const ConfigTable& file) {
   result.gas = read_gas(file.table("gas"));
   result.boundaries = read_boundaries(file.table("boundary"));
   result.bodies = read_bodies(file, load_sdf_shape);
+  result.patches =
+      read_patches(file.table("boundary"), result.boundaries, result.bodies, load_sdf_shape);
   result.numerics = read_numerics(file.table_or_empty("numerics"));
   result.initial = read_initial(file.table_or_empty("initial"));
   result.fixed_bed = read_fixed_bed(file, result.grid);

@@ -60,6 +60,7 @@ struct GasCase {
   Grid grid;
   GasProperties gas;
   Boundaries boundaries;
+  std::vector<BoundaryPatch> patches;
   std::vector<Body> bodies;
   Numerics numerics;
   InitialState initial;

@@ -6,8 +6,9 @@ namespace gasgrain::cfd {
 
 namespace {
 
-bool has_shear_or_flux(const Boundary& side) {
-  return side.type != BoundaryType::slip && side.type != BoundaryType::periodic;
+bool has_shear_or_flux(const SideConditions& sides, int d, int side) {
+  return sides.has(d, side, BoundaryType::no_slip) || sides.has(d, side, BoundaryType::inlet) ||
+         sides.has(d, side, BoundaryType::outlet);
 }
 
 // Share-weighted open volume of the cells on both sides of every owned face.
@@ -47,10 +48,10 @@ std::vector<Lender> lenders_of(const GasDomain& domain, int d) {
 GasDomain::GasDomain(const GasCase& gas_case, MPI_Comm communicator)
     : decomposition(communicator, gas_case.grid, periodic_directions(gas_case.boundaries),
                     gas_case.numerics.ranks),
-      boundaries(gas_case.boundaries),
+      sides(gas_case.grid, gas_case.boundaries, gas_case.patches),
       bodies(gas_case.bodies),
       gas(gas_case.gas),
-      walls(make_wall_geometry(decomposition, boundaries, bodies)),
+      walls(make_wall_geometry(decomposition, sides, bodies)),
       spacing(gas_case.grid.spacing()),
       open_share(size()) {
   for (std::size_t n = 0; n < open_share.count(); ++n) open_share[n] = 1 - walls.wall_fraction[n];
@@ -68,8 +69,8 @@ GasDomain::GasDomain(const GasCase& gas_case, MPI_Comm communicator)
                   [&](int i, int j, int k) { sum += control_volume[d](i, j, k); });
     fill_ghosts(decomposition, control_volume[d]);
     solved[d] = sum_over_ranks(decomposition, sum) > 0.0;
-    varies[d] = decomposition.grid().cells[d] > 1 || has_shear_or_flux(boundaries[d][0]) ||
-                has_shear_or_flux(boundaries[d][1]);
+    varies[d] = decomposition.grid().cells[d] > 1 || has_shear_or_flux(sides, d, 0) ||
+                has_shear_or_flux(sides, d, 1);
   }
 }
 

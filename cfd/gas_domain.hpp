@@ -9,6 +9,7 @@
 #include "cfd/gas_case.hpp"
 #include "cfd/grid.hpp"
 #include "cfd/loops.hpp"
+#include "cfd/side_conditions.hpp"
 #include "cfd/wall_geometry.hpp"
 
 namespace gasgrain::cfd {
@@ -22,7 +23,7 @@ struct GasDomain {
   GasDomain(const GasCase& gas_case, MPI_Comm communicator);
 
   Decomposition decomposition;
-  Boundaries boundaries;
+  SideConditions sides;
   std::vector<Body> bodies;
   GasProperties gas;
   WallGeometry walls;
@@ -56,12 +57,12 @@ struct GasDomain {
   }
   // Local index of the layer of cells inside that side.
   int side_layer(int direction, int side) const { return side_plane(direction, side) - side; }
-  bool is_outlet(int direction, int side) const {
-    return boundaries[direction][side].type == BoundaryType::outlet;
+  // Global indices of an own or ghost cell.
+  Index3 global_cell(int i, int j, int k) const {
+    const Index3& first = decomposition.block().lower;
+    return {i + first[0], j + first[1], k + first[2]};
   }
-  bool is_periodic(int direction) const {
-    return boundaries[direction][0].type == BoundaryType::periodic;
-  }
+  bool is_periodic(int direction) const { return sides.is_periodic(direction); }
 };
 
 // Half-open box of local indices.
@@ -81,6 +82,30 @@ void for_each_in(const IndexBox& box, Visit&& visit) {
       for (int i = box.begin[0]; i < box.end[0]; ++i) visit(i, j, k);
     }
   }
+}
+
+// visit(storage index of the cell, of the face, condition) for every face that this block has on a
+// side of the grid.
+template <class Visit>
+void for_each_side_face(const GasDomain& domain, int direction, int side, Visit&& visit) {
+  if (!domain.decomposition.at_boundary(direction, side)) return;
+  const Field& like = domain.open_share;
+  const std::ptrdiff_t to_face = side == 1 ? like.stride(direction) : 0;
+  for_each_in(
+      plane_of(domain, direction, domain.side_layer(direction, side)), [&](int i, int j, int k) {
+        const std::ptrdiff_t cell = like.index(i, j, k);
+        visit(cell, cell + to_face, domain.sides.at(direction, side, domain.global_cell(i, j, k)));
+      });
+}
+
+// The same for the faces that are outlets.
+template <class Visit>
+void for_each_outlet_face(const GasDomain& domain, int direction, int side, Visit&& visit) {
+  if (!domain.sides.has(direction, side, BoundaryType::outlet)) return;
+  for_each_side_face(domain, direction, side,
+                     [&](std::ptrdiff_t cell, std::ptrdiff_t face, const SideCondition& condition) {
+                       if (condition.type == BoundaryType::outlet) visit(cell, face, condition);
+                     });
 }
 
 // visit(first storage index, length) for every row of a box along x.

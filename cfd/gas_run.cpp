@@ -84,6 +84,13 @@ void GasRun::print_start() const {
   std::printf("gas grid of %d x %d x %d cells in %d x %d x %d blocks, %.4g s of gas\n", cells[0],
               cells[1], cells[2], blocks.ranks()[0], blocks.ranks()[1], blocks.ranks()[2],
               end_time_);
+  for (const SidePart& part : solver_.side_parts()) {
+    if (part.name.empty()) continue;
+    std::printf("patch '%s' on %s: %ld faces, %.6g m^2\n", part.name.c_str(),
+                names_of_sides[part.direction][part.side], part.faces,
+                static_cast<double>(part.faces) * blocks.grid().cell_volume() /
+                    blocks.grid().spacing()[part.direction]);
+  }
   std::printf("%12s %10s %9s %6s %10s %10s %12s\n", "time/s", "step/s", "Courant", "iter",
               "residual", "u_max/m/s", "remaining/s");
 }

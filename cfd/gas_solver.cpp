@@ -202,6 +202,7 @@ void GasSolver::State::visit_grains(StateArchive& archive) {
 
 // What follows from the state that was restored.
 void GasSolver::State::rebuild() {
+  domain.sides.set_time(time);
   update(medium, domain, grains);
   fill_velocity_ghosts(domain, medium, velocity);
   fill_ghosts(domain.decomposition, pressure);
@@ -229,6 +230,7 @@ StepReport GasSolver::advance(double dt) {
   update(s.medium, domain, s.grains);
   const Vec3 momentum_with_new_void = gas_momentum(domain, s.medium, s.velocity);
 
+  s.domain.sides.set_time(s.time + dt);
   s.predict(dt, weights);
   set_solid_faces(s.velocity, domain);
   fill_velocity_ghosts(domain, s.medium, s.velocity);
@@ -277,6 +279,9 @@ const Decomposition& GasSolver::decomposition() const {
 }
 const WallGeometry& GasSolver::walls() const {
   return state_->domain.walls;
+}
+const std::vector<SidePart>& GasSolver::side_parts() const {
+  return state_->domain.sides.parts();
 }
 GrainPhase& GasSolver::grains() {
   return state_->grains;

@@ -13,6 +13,7 @@
 #include "cfd/gas_case.hpp"
 #include "cfd/grid.hpp"
 #include "cfd/pressure_solver.hpp"
+#include "cfd/side_conditions.hpp"
 #include "cfd/state_archive.hpp"
 #include "cfd/wall_geometry.hpp"
 
@@ -66,6 +67,7 @@ class GasSolver {
   const GasCase& gas_case() const;
   const Decomposition& decomposition() const;
   const WallGeometry& walls() const;
+  const std::vector<SidePart>& side_parts() const;  // of the sides of the grid, then the patches
 
   // Sets the velocity of all faces that take part from a function of position, m/s; the next step
   // is the first of a run (Euler's). At construction the case's initial velocity is set.

@@ -62,15 +62,47 @@ auto mirrored_faces(const GasDomain& domain, Side s) {
   };
 }
 
-// Velocity along the side, of the wall or the inlet stream before division by the void fraction.
-Vec3 velocity_of_side(const Boundary& side) {
-  return side.type == BoundaryType::inlet ? side.superficial_velocity : side.wall_velocity;
+// The value outside that makes the one on the side right for one condition: `given` is that of the
+// wall or the inlet stream, before division by the void fraction.
+double mirrored(BoundaryType type, double given, double inside, double void_fraction) {
+  if (type == BoundaryType::slip || type == BoundaryType::outlet) return inside;
+  const double stream = type == BoundaryType::inlet ? given / void_fraction : given;
+  return 2.0 * stream - inside;
+}
+
+// A tangential velocity sits between two faces of the side; with different conditions the value
+// outside is the mean of what each asks for.
+void fill_tangential_by_faces(const GasDomain& domain, const FaceMedium& medium, Side s,
+                              int component, Field& u) {
+  const SideConditions& sides = domain.sides;
+  const auto layers = mirrored_cells(domain, s);
+  for (int l = 1; l <= halo; ++l) {
+    const auto [ghost, source] = layers(l);
+    if (!stored(domain, s.direction, ghost) || !stored(domain, s.direction, source)) continue;
+    const std::ptrdiff_t step = (source - ghost) * u.stride(s.direction);
+    for_each_in(stored_plane(domain, s.direction, ghost), [&](int i, int j, int k) {
+      const std::ptrdiff_t n = u.index(i, j, k);
+      const double eps = face_void_fraction(medium, component, n + step);
+      Index3 cell = domain.global_cell(i, j, k);
+      double sum = 0.0;
+      for (int beside = 0; beside < 2; ++beside, --cell[component]) {
+        const SideCondition& condition = sides.at(s.direction, s.side, cell);
+        const double given = sides.velocity(s.direction, s.side, cell)[component];
+        sum += mirrored(condition.type, given, u[n + step], eps);
+      }
+      u[n] = 0.5 * sum;
+    });
+  }
 }
 
 void fill_tangential(const GasDomain& domain, const FaceMedium& medium, Side s, int component,
                      Field& u) {
-  const Boundary& side = domain.boundaries[s.direction][s.side];
-  const double value = velocity_of_side(side)[component];
+  if (!domain.sides.is_uniform(s.direction, s.side)) {
+    fill_tangential_by_faces(domain, medium, s, component, u);
+    return;
+  }
+  const SideCondition& side = domain.sides.at(s.direction, s.side, {});
+  const double value = side.velocity[component];
   const auto layers = mirrored_cells(domain, s);
   if (side.type == BoundaryType::slip || side.type == BoundaryType::outlet) {
     for_each_outside(domain, s, u, layers, [&](auto n, auto source) { u[n] = u[source]; });
@@ -84,10 +116,30 @@ void fill_tangential(const GasDomain& domain, const FaceMedium& medium, Side s, 
   }
 }
 
+void fill_normal_by_faces(const GasDomain& domain, Side s, Field& u) {
+  const auto layers = mirrored_faces(domain, s);
+  for (int l = 1; l <= halo; ++l) {
+    const auto [ghost, source] = layers(l);
+    if (!stored(domain, s.direction, ghost) || !stored(domain, s.direction, source)) continue;
+    const std::ptrdiff_t step = (source - ghost) * u.stride(s.direction);
+    for_each_in(stored_plane(domain, s.direction, ghost), [&](int i, int j, int k) {
+      const std::ptrdiff_t n = u.index(i, j, k);
+      const double on_side = u[n + step / 2];
+      const bool outlet = domain.sides.at(s.direction, s.side, domain.global_cell(i, j, k)).type ==
+                          BoundaryType::outlet;
+      u[n] = outlet ? on_side : 2.0 * on_side - u[n + step];
+    });
+  }
+}
+
 void fill_normal(const GasDomain& domain, Side s, Field& u) {
   const int plane = domain.side_plane(s.direction, s.side);
   if (!stored(domain, s.direction, plane)) return;
-  const bool outlet = domain.is_outlet(s.direction, s.side);
+  if (!domain.sides.is_uniform(s.direction, s.side)) {
+    fill_normal_by_faces(domain, s, u);
+    return;
+  }
+  const bool outlet = domain.sides.at(s.direction, s.side, {}).type == BoundaryType::outlet;
   const auto layers = mirrored_faces(domain, s);
   for_each_outside(domain, s, u, layers, [&](auto n, auto source) {
     const double on_side = u[(n + source) / 2];
@@ -97,14 +149,18 @@ void fill_normal(const GasDomain& domain, Side s, Field& u) {
 
 void set_prescribed_flux(const GasDomain& domain, const FaceMedium& medium, Side s, Field& u) {
   if (!domain.decomposition.at_boundary(s.direction, s.side)) return;
-  const Boundary& side = domain.boundaries[s.direction][s.side];
-  if (side.type == BoundaryType::outlet) return;
+  const SideConditions& sides = domain.sides;
   const Field& open = domain.walls.open_area[s.direction];
-  const double flux = side.type == BoundaryType::inlet ? side.superficial_velocity[s.direction] : 0;
   const int plane = domain.side_plane(s.direction, s.side);
   for_each_in(plane_of(domain, s.direction, plane), [&](int i, int j, int k) {
     const std::ptrdiff_t n = u.index(i, j, k);
-    u[n] = open[n] > 0.0 ? flux / face_void_fraction(medium, s.direction, n) : 0.0;
+    const Index3 cell = domain.global_cell(i, j, k);
+    const BoundaryType type = sides.at(s.direction, s.side, cell).type;
+    if (type == BoundaryType::outlet) return;
+    u[n] = 0.0;
+    if (type != BoundaryType::inlet || open[n] == 0.0) return;
+    const double flux = sides.velocity(s.direction, s.side, cell)[s.direction];
+    u[n] = flux / face_void_fraction(medium, s.direction, n);
   });
 }
 

@@ -17,26 +17,20 @@ namespace gasgrain::cfd {
 namespace {
 
 // Area of a cell's face on a side that no body covers.
-double open_side_area(const GasDomain& domain, int d, int side, std::ptrdiff_t cell) {
-  const BoundaryType type = domain.boundaries[d][side].type;
-  const std::ptrdiff_t face = cell + (side == 1 ? domain.open_share.stride(d) : 0);
+double open_side_area(const GasDomain& domain, int d, std::ptrdiff_t cell, std::ptrdiff_t face,
+                      const SideCondition& condition) {
+  const BoundaryType type = condition.type;
   const bool flows = type == BoundaryType::inlet || type == BoundaryType::outlet;
   return domain.face_area(d) * (flows ? domain.walls.open_area[d][face] : domain.open_share[cell]);
 }
 
 double pressure_on_side(const GasDomain& domain, const Field& pressure, const Field& gradient,
-                        int d, int side, std::ptrdiff_t cell) {
-  if (domain.is_outlet(d, side)) return domain.boundaries[d][side].pressure;
+                        int d, std::ptrdiff_t cell, std::ptrdiff_t face,
+                        const SideCondition& condition) {
+  if (condition.type == BoundaryType::outlet) return condition.pressure;
   const double half = 0.5 * domain.spacing[d];
-  return side == 0 ? pressure[cell] - half * gradient[cell + pressure.stride(d)]
-                   : pressure[cell] + half * gradient[cell];
-}
-
-template <class Visit>
-void for_each_side_cell(const GasDomain& domain, int d, int side, Visit&& visit) {
-  if (!domain.decomposition.at_boundary(d, side)) return;
-  for_each_in(plane_of(domain, d, domain.side_layer(d, side)),
-              [&](int i, int j, int k) { visit(domain.open_share.index(i, j, k)); });
+  return cell == face ? pressure[cell] - half * gradient[cell + pressure.stride(d)]
+                      : pressure[cell] + half * gradient[cell];
 }
 
 // sum over faces of V grad p along d, from the cells and the outlets.
@@ -49,13 +43,13 @@ double integral_by_parts(const GasDomain& domain, const Field& pressure, int d) 
     sum += pressure[n] * (volume[n] - volume[n + s]) / domain.spacing[d];
   });
   for (int side = 0; side < 2; ++side) {
-    if (!domain.is_outlet(d, side)) continue;
     const double outwards = side == 0 ? -1.0 : 1.0;
     // half the spacing: the cell's coefficient doubles, and the outlet's pressure stands opposite
-    for_each_side_cell(domain, d, side, [&](std::ptrdiff_t cell) {
-      const double weight = outwards * volume[cell + side * s] / domain.spacing[d];
-      sum += weight * (2.0 * domain.boundaries[d][side].pressure - pressure[cell]);
-    });
+    for_each_outlet_face(domain, d, side,
+                         [&](auto cell, auto face, const SideCondition& condition) {
+                           const double weight = outwards * volume[face] / domain.spacing[d];
+                           sum += weight * (2.0 * condition.pressure - pressure[cell]);
+                         });
   }
   return sum;
 }
@@ -104,19 +98,21 @@ void add_forces(MomentumBudget& budget, const GasDomain& domain, const FaceMediu
 double side_force(const GasDomain& domain, const Field& pressure,
                   const VectorField& pressure_gradient, int direction, int side) {
   double force = 0.0;
-  for_each_side_cell(domain, direction, side, [&](std::ptrdiff_t cell) {
-    force +=
-        open_side_area(domain, direction, side, cell) *
-        pressure_on_side(domain, pressure, pressure_gradient[direction], direction, side, cell);
-  });
+  const Field& gradient = pressure_gradient[direction];
+  for_each_side_face(
+      domain, direction, side, [&](auto cell, auto face, const SideCondition& condition) {
+        force += open_side_area(domain, direction, cell, face, condition) *
+                 pressure_on_side(domain, pressure, gradient, direction, cell, face, condition);
+      });
   return force;
 }
 
 double side_open_area(const GasDomain& domain, int direction, int side) {
   double area = 0.0;
-  for_each_side_cell(domain, direction, side, [&](std::ptrdiff_t cell) {
-    area += open_side_area(domain, direction, side, cell);
-  });
+  for_each_side_face(domain, direction, side,
+                     [&](auto cell, auto face, const SideCondition& condition) {
+                       area += open_side_area(domain, direction, cell, face, condition);
+                     });
   return area;
 }
 

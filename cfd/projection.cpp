@@ -64,11 +64,8 @@ void Projection::find_regions() {
   Field outlet(domain_.size());
   for (int d = 0; d < 3; ++d) {
     for (int side = 0; side < 2; ++side) {
-      if (!domain_.is_outlet(d, side) || !domain_.decomposition.at_boundary(d, side)) continue;
-      const Field& part = domain_.walls.takes_part[d];
-      for_each_in(plane_of(domain_, d, domain_.side_layer(d, side)), [&](int i, int j, int k) {
-        const std::ptrdiff_t n = part.index(i, j, k);
-        outlet[n] += part[n + (side == 1 ? part.stride(d) : 0)];
+      for_each_outlet_face(domain_, d, side, [&](auto cell, auto face, const SideCondition&) {
+        outlet[cell] += domain_.walls.takes_part[d][face];
       });
     }
   }
@@ -91,15 +88,15 @@ void Projection::set_coefficients(const FaceMedium& medium, double dt) {
              mobility(medium, domain_.gas.density, dt, d, n);
     });
     for (int side = 0; side < 2; ++side) {
-      if (!domain_.is_outlet(d, side) || !domain_.decomposition.at_boundary(d, side)) continue;
-      for_each_in(plane_of(domain_, d, domain_.side_layer(d, side)), [&](int i, int j, int k) {
-        const std::ptrdiff_t cell = t.index(i, j, k), n = cell + (side == 1 ? t.stride(d) : 0);
-        if (part[n] == 0.0) return;
-        const double coefficient = 2.0 * scale * open[n] * face_void_fraction(medium, d, n) *
-                                   mobility(medium, domain_.gas.density, dt, d, n);
-        system_.diagonal[cell] += coefficient;
-        outlet_term_[cell] += coefficient * domain_.boundaries[d][side].pressure;
-      });
+      for_each_outlet_face(
+          domain_, d, side, [&](auto cell, auto face, const SideCondition& condition) {
+            if (part[face] == 0.0) return;
+            const double coefficient = 2.0 * scale * open[face] *
+                                       face_void_fraction(medium, d, face) *
+                                       mobility(medium, domain_.gas.density, dt, d, face);
+            system_.diagonal[cell] += coefficient;
+            outlet_term_[cell] += coefficient * condition.pressure;
+          });
     }
   }
   fill_ghosts(domain_.decomposition, system_.transmissibility);
@@ -223,14 +220,12 @@ void Projection::set_gradient(const Field& pressure) {
       gradient[n] = part[n] * scale * (pressure[n] - pressure[n - pressure.stride(d)]);
     });
     for (int side = 0; side < 2; ++side) {
-      if (!domain_.is_outlet(d, side) || !domain_.decomposition.at_boundary(d, side)) continue;
-      const double outside = domain_.boundaries[d][side].pressure;
-      for_each_in(plane_of(domain_, d, domain_.side_layer(d, side)), [&](int i, int j, int k) {
-        const std::ptrdiff_t cell = pressure.index(i, j, k);
-        const std::ptrdiff_t n = cell + (side == 1 ? pressure.stride(d) : 0);
-        const double rise = side == 1 ? outside - pressure[cell] : pressure[cell] - outside;
-        gradient[n] = part[n] * 2.0 * scale * rise;
-      });
+      const double outwards = side == 0 ? -1.0 : 1.0;
+      for_each_outlet_face(domain_, d, side,
+                           [&](auto cell, auto face, const SideCondition& condition) {
+                             const double rise = outwards * (condition.pressure - pressure[cell]);
+                             gradient[face] = part[face] * 2.0 * scale * rise;
+                           });
     }
   }
   fill_ghosts(domain_.decomposition, gradient_);

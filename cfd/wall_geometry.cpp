@@ -21,10 +21,10 @@ constexpr double sliver = 1e-9;  // open shares below count as closed, solid one
 
 class GeometryBuilder {
  public:
-  GeometryBuilder(const Decomposition& decomposition, const Boundaries& boundaries,
+  GeometryBuilder(const Decomposition& decomposition, const SideConditions& sides,
                   const std::vector<Body>& bodies)
       : decomposition_(decomposition),
-        boundaries_(boundaries),
+        sides_(sides),
         all_bodies_(bodies),
         size_(decomposition.block().size),
         half_cell_(0.5 * decomposition.grid().spacing()) {
@@ -78,12 +78,18 @@ class GeometryBuilder {
     if (n == 0 && decomposition_.at_boundary(d, 0)) return 0;
     return n == size_[d] && decomposition_.at_boundary(d, 1) ? 1 : -1;
   }
-  bool is_open_side(int d, int side) const {
-    const BoundaryType type = boundaries_[d][side].type;
+  // Condition of the face of direction d at local indices on a side of the grid.
+  BoundaryType type_of_face(int d, int side, int i, int j, int k) const {
+    const Index3& lower = decomposition_.block().lower;
+    return sides_.at(d, side, {i + lower[0], j + lower[1], k + lower[2]}).type;
+  }
+  bool is_open(int d, int side, int i, int j, int k) const {
+    if (side < 0) return true;
+    const BoundaryType type = type_of_face(d, side, i, j, k);
     return type == BoundaryType::inlet || type == BoundaryType::outlet;
   }
-  bool flux_is_prescribed(int d, int side) const {
-    return side >= 0 && boundaries_[d][side].type != BoundaryType::outlet;
+  bool flux_is_prescribed(int d, int side, int i, int j, int k) const {
+    return side >= 0 && type_of_face(d, side, i, j, k) != BoundaryType::outlet;
   }
   const Body& nearest_body(const Vec3& x) const {
     return **std::min_element(bodies_.begin(), bodies_.end(), [&](const Body* a, const Body* b) {
@@ -92,7 +98,7 @@ class GeometryBuilder {
   }
 
   const Decomposition& decomposition_;
-  const Boundaries& boundaries_;
+  const SideConditions& sides_;
   const std::vector<Body>& all_bodies_;
   Index3 size_;
   Vec3 half_cell_;
@@ -159,7 +165,7 @@ void GeometryBuilder::sample_faces(int d) {
   for_each_face(decomposition_, d, [&](int i, int j, int k) {
     const std::ptrdiff_t n = walls_.open_area[d].index(i, j, k);
     const int side = side_of_face(d, Index3{i, j, k}[d]);
-    double open = side >= 0 && !is_open_side(d, side) ? 0.0 : 1.0;
+    double open = is_open(d, side, i, j, k) ? 1.0 : 0.0;
     if (solid_) {
       const Vec3 centre = cell_centre(i, j, k) - half_cell_[d] * Vec3::Unit(d);
       if (open > 0.0) open = open_fraction(*solid_, centre, half_face);
@@ -188,7 +194,7 @@ void GeometryBuilder::close_faces_of_solid_cells() {
       const bool solid_below = side != 0 && walls_.wall_fraction[n - open.stride(d)] == 1.0;
       if (solid_above || solid_below) open[n] = 0.0;
       const bool free = open[n] > 0.0 && walls_.distance[d][n] >= 0.0;
-      walls_.takes_part[d][n] = free && !flux_is_prescribed(d, side) ? 1.0 : 0.0;
+      walls_.takes_part[d][n] = free && !flux_is_prescribed(d, side, i, j, k) ? 1.0 : 0.0;
     });
   }
   fill_ghosts(decomposition_, walls_.takes_part);
@@ -266,9 +272,9 @@ void GeometryBuilder::choose_hosts() {
 
 }  // namespace
 
-WallGeometry make_wall_geometry(const Decomposition& decomposition, const Boundaries& boundaries,
+WallGeometry make_wall_geometry(const Decomposition& decomposition, const SideConditions& sides,
                                 const std::vector<Body>& bodies) {
-  return GeometryBuilder(decomposition, boundaries, bodies).build();
+  return GeometryBuilder(decomposition, sides, bodies).build();
 }
 
 }  // namespace gasgrain::cfd

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "cfd/boundary.hpp"
 #include "cfd/field.hpp"
 #include "cfd/grid.hpp"
+#include "cfd/side_conditions.hpp"
 #include "coupling/shared/body.hpp"
 
 namespace gasgrain::cfd {
@@ -49,7 +49,7 @@ inline std::ptrdiff_t host_offset(const Field& field, double code) {
 // solid, and so does a group of connected cells that are all cut: no cell of it resolves the gas.
 // Throws UserError when a body does not reach into the grid (it acts on the gas and is nowhere
 // solid in it) or leaves no open cell.
-WallGeometry make_wall_geometry(const Decomposition& decomposition, const Boundaries& boundaries,
+WallGeometry make_wall_geometry(const Decomposition& decomposition, const SideConditions& sides,
                                 const std::vector<Body>& bodies);
 
 }  // namespace gasgrain::cfd

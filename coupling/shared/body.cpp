@@ -65,8 +65,6 @@ Shape read_sphere(const ConfigTable& table) {
                            .radius = table.number("radius", Range::positive())});
 }
 
-Shape read_shape(const ConfigTable& table, ShapeFileLoader load_file);
-
 std::vector<Shape> read_parts(const ConfigTable& table, const std::string& key, std::size_t fewest,
                               ShapeFileLoader load_file) {
   const std::vector<ConfigTable> list = table.tables(key);
@@ -142,6 +140,8 @@ std::string shape_key(const ConfigTable& table) {
   return found;
 }
 
+}  // namespace
+
 Shape read_shape(const ConfigTable& table, ShapeFileLoader load_file) {
   const std::string key = shape_key(table);
   if (key == "plane") return read_primitive(table, key, read_plane);
@@ -155,6 +155,8 @@ Shape read_shape(const ConfigTable& table, ShapeFileLoader load_file) {
   if (key == "complement") return read_complement(table, load_file);
   return read_file(table, load_file);
 }
+
+namespace {
 
 void read_acts_on(const ConfigTable& table, Body& body) {
   if (!table.has("acts_on")) return;

@@ -38,6 +38,11 @@ using ShapeFileLoader = Shape (*)(const std::string& path);
 // duplicate name, no or several shapes, non-positive sizes, unknown keys.
 std::vector<Body> read_bodies(const ConfigTable& case_file, ShapeFileLoader load_file);
 
+// The one shape that a table gives by one of the keys plane, box, cylinder, sphere, union,
+// intersection, difference, complement and file. The caller marks its own keys as known before and
+// rejects unknown ones afterwards. Throws UserError when there is none or more than one.
+Shape read_shape(const ConfigTable& table, ShapeFileLoader load_file);
+
 // The body of that name; throws UserError that lists the names there are.
 const Body& find_body(const std::vector<Body>& bodies, const std::string& name);
 

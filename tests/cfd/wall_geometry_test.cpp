@@ -44,7 +44,8 @@ TEST(PlaneCut, both_sides_add_up_to_one) {
 WallGeometry geometry(const GasCase& gas_case) {
   const Decomposition blocks(MPI_COMM_WORLD, gas_case.grid,
                              periodic_directions(gas_case.boundaries));
-  return make_wall_geometry(blocks, gas_case.boundaries, gas_case.bodies);
+  return make_wall_geometry(blocks, SideConditions(gas_case.grid, gas_case.boundaries),
+                            gas_case.bodies);
 }
 
 TEST(OpenFraction, volume_of_a_sphere_is_exact_to_a_permille) {
@@ -91,7 +92,8 @@ TEST(WallGeometry, shares_are_halves_inside_and_all_on_the_free_face_at_walls_an
   c.boundaries[2][0] = testing::inlet(Vec3(0, 0, 1));
   c.boundaries[2][1] = testing::side(BoundaryType::outlet);
   const Decomposition blocks(MPI_COMM_WORLD, c.grid, {false, false, false});
-  const WallGeometry walls = make_wall_geometry(blocks, c.boundaries, c.bodies);
+  const WallGeometry walls =
+      make_wall_geometry(blocks, SideConditions(c.grid, c.boundaries), c.bodies);
   for_each_cell(blocks.block().size, [&](int i, int j, int k) {
     const int x = i + blocks.block().lower[0], z = k + blocks.block().lower[2];
     EXPECT_EQ(walls.lower_share[0](i, j, k), x == 0 ? 0.0 : x == 3 ? 1.0 : 0.5);
@@ -152,7 +154,8 @@ TEST(WallGeometry, gas_that_cannot_move_counts_as_solid) {
       "[[body]]\nname='f'\nunion=[{box={lower=[-1,-1,-1],upper=[2,2,0.295]}},"
       "{box={lower=[-1,-1,0.3],upper=[2,2,0.5]}}]\n");
   const Decomposition blocks(MPI_COMM_WORLD, c.grid, {false, false, false});
-  const WallGeometry walls = make_wall_geometry(blocks, c.boundaries, c.bodies);
+  const WallGeometry walls =
+      make_wall_geometry(blocks, SideConditions(c.grid, c.boundaries), c.bodies);
   for_each_cell(blocks.block().size, [&](int i, int j, int k) {
     EXPECT_EQ(walls.wall_fraction(i, j, k), k + blocks.block().lower[2] < 5 ? 1.0 : 0.0);
   });

@@ -25,7 +25,8 @@ struct MappingScene {
              .upper = Vec3(-0.2, 0.1, 0.0) + 0.1 * Vec3(cells[0], cells[1], cells[2]),
              .cells = cells},
         decomposition(communicator, grid, periodic),
-        walls(cfd::make_wall_geometry(decomposition, boundaries(periodic), bodies)) {}
+        walls(cfd::make_wall_geometry(decomposition,
+                                      cfd::SideConditions(grid, boundaries(periodic)), bodies)) {}
 
   static cfd::Boundaries boundaries(const std::array<bool, 3>& periodic) {
     cfd::Boundaries result;
