@@ -120,7 +120,8 @@ TEST(SideConditions, patches_that_cannot_be_are_errors) {
                "there is no body 'nozzle'");
   std::string periodic = no_slip_sides;
   for (const char* name : {"x_lower = {type = 'no-slip'}", "x_upper = {type = 'no-slip'}"}) {
-    periodic.replace(periodic.find(name), 26, std::string(name, 7) + " = {type = 'periodic'}");
+    periodic.replace(periodic.find(name), std::string(name).size(),
+                     std::string(name, 7) + " = {type = 'periodic'}");
   }
   expect_error(periodic + patch("name = 'p'\nside = 'x_lower'\ntype = 'outlet'\n"
                                 "sphere = {center = [0, 0.5, 0.5], radius = 0.3}"),
