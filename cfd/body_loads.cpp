@@ -57,8 +57,8 @@ BodyLoads::BodyLoads(const GasDomain& domain) : domain_(domain), loads_(domain.b
 double BodyLoads::undisturbed_volume(int d, const Index3& local) const {
   const int count = domain_.decomposition.grid().cells[d];
   const bool periodic = domain_.is_periodic(d);
-  const bool below = periodic || domain_.is_outlet(d, 0),
-             above = periodic || domain_.is_outlet(d, 1);
+  const bool below = periodic || domain_.is_outlet(d, 0, local),
+             above = periodic || domain_.is_outlet(d, 1, local);
   const int face = local[d] + domain_.decomposition.block().lower[d];
   double shares = 0.0;
   for (int cell = face - 1; cell <= face; ++cell) {
@@ -139,18 +139,20 @@ void BodyLoads::add_stress(const VectorField& slope, double weight) {
 }
 
 // Force of a side of the grid, as in side_force(), minus that without bodies, N.
-double BodyLoads::side_term(int d, int side, std::ptrdiff_t cell, const Field& pressure,
+double BodyLoads::side_term(int d, int side, const Index3& local, const Field& pressure,
                             const VectorField& gradient) const {
+  const SideCondition& condition = domain_.condition(d, side, local);
+  const std::ptrdiff_t cell = pressure.index(local[0], local[1], local[2]);
   const double undisturbed = domain_.face_area(d), inwards = side == 0 ? 1.0 : -1.0;
   const std::ptrdiff_t step = side == 0 ? pressure.stride(d) : -pressure.stride(d);
   const std::ptrdiff_t face = side == 0 ? cell : cell + pressure.stride(d);
   const std::ptrdiff_t next_face = face + step;
-  const BoundaryType type = domain_.boundaries[d][side].type;
+  const BoundaryType type = condition.type;
   const bool flows = type == BoundaryType::inlet || type == BoundaryType::outlet;
   const double area =
       undisturbed * (flows ? domain_.walls.open_area[d][face] : domain_.open_share[cell]);
   if (type == BoundaryType::outlet) {
-    return (area - undisturbed) * domain_.boundaries[d][side].pressure;
+    return (area - undisturbed) * condition.pressure;
   }
   const double with = pressure[cell] - inwards * 0.5 * domain_.spacing[d] * gradient[d][next_face];
   if (domain_.decomposition.grid().cells[d] == 1) return area * with - undisturbed * pressure[cell];
@@ -177,12 +179,12 @@ Vec3 BodyLoads::pressure_on(const Index3& local, const Field& pressure,
       const int last = side == 0 ? 0 : domain_.decomposition.grid().cells[d] - 1;
       if (local[d] + first[d] != last) continue;
       const double outwards = side == 0 ? -1.0 : 1.0;
-      if (domain_.is_outlet(d, side)) {
-        const double outside = domain_.boundaries[d][side].pressure;
+      if (domain_.is_outlet(d, side, local)) {
+        const double outside = domain_.condition(d, side, local).pressure;
         force[d] += outwards * (side == 0 ? lower : upper) / domain_.spacing[d] *
                     (2.0 * outside - pressure[n]);
       }
-      force[d] -= outwards * side_term(d, side, n, pressure, gradient);
+      force[d] -= outwards * side_term(d, side, local, pressure, gradient);
     }
   }
   return force;

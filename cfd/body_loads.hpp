@@ -46,7 +46,7 @@ class BodyLoads {
 
   double undisturbed_volume(int d, const Index3& local) const;
   Vec3 pressure_on(const Index3& local, const Field& pressure, const VectorField& gradient) const;
-  double side_term(int d, int side, std::ptrdiff_t cell, const Field& pressure,
+  double side_term(int d, int side, const Index3& local, const Field& pressure,
                    const VectorField& gradient) const;
 
   const GasDomain& domain_;

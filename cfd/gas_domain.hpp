@@ -62,6 +62,13 @@ struct GasDomain {
     const Index3& first = decomposition.block().lower;
     return {i + first[0], j + first[1], k + first[2]};
   }
+  // Condition of the face of a side next to a cell given by local indices.
+  const SideCondition& condition(int direction, int side, const Index3& local) const {
+    return sides.at(direction, side, global_cell(local[0], local[1], local[2]));
+  }
+  bool is_outlet(int direction, int side, const Index3& local) const {
+    return condition(direction, side, local).type == BoundaryType::outlet;
+  }
   bool is_periodic(int direction) const { return sides.is_periodic(direction); }
 };
 
