@@ -2,18 +2,25 @@
 // file.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <functional>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "coupling/files/sdf_file.hpp"
+#include "coupling/files/slice_picture.hpp"
 #include "coupling/shared/body.hpp"
 #include "coupling/shared/boolean_shapes.hpp"
 #include "coupling/shared/config_table.hpp"
 #include "coupling/shared/error.hpp"
+#include "coupling/shared/feature_size.hpp"
 #include "coupling/shared/motion.hpp"
+#include "coupling/shared/primitives.hpp"
 #include "coupling/shared/sampling.hpp"
 #include "coupling/shared/solid_volume.hpp"
 #include "coupling/shared/stl_shape.hpp"
@@ -29,7 +36,10 @@ struct Options {
   bool complement = false;
   double spacing = 0.0, margin = -1.0, band = 0.0;  // negative, zero: default
   std::vector<double> lower, upper;                 // empty: the case file's grid
-  bool allow_cut = false;
+  bool allow_cut = false, compact = false;
+  std::string interpolation = "quadratic", picture, slice_axis = "y";
+  std::optional<double> slice_position;  // m; the middle
+  int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 };
 
 // What is to be sampled, and where it is unless the user says so.
@@ -76,7 +86,10 @@ SamplingBox sampling_box(const Options& options, const Subject& subject) {
                   .upper = Vec3::Zero(),
                   .spacing = options.spacing,
                   .band = options.band > 0 ? options.band : default_band(options.spacing),
-                  .cut = options.allow_cut};
+                  .cut = options.allow_cut,
+                  .interpolation = options.interpolation == "linear" ? Interpolation::linear
+                                                                     : Interpolation::quadratic,
+                  .storage = options.compact ? SampleStorage::compact : SampleStorage::plain};
   if (!options.lower.empty()) {
     box.lower = to_vector(options.lower);
     box.upper = to_vector(options.upper);
@@ -96,51 +109,97 @@ SamplingBox sampling_box(const Options& options, const Subject& subject) {
 void print_field(const SampledDistance& field) {
   const BrickSamples& data = field.data();
   const Vec3 lower = field.lower(), upper = field.upper();
-  const std::size_t bricks = data.slot.size();
-  std::printf("spacing        %g m, band %g m\n", data.spacing, data.band);
+  const Index3& bricks = data.bricks;
+  const double all = static_cast<double>(bricks[0]) * bricks[1] * bricks[2];
+  std::printf("spacing        %g m, band %g m, %s interpolation\n", data.spacing, data.band,
+              data.interpolation == Interpolation::linear ? "linear" : "quadratic");
   std::printf("box            (%g, %g, %g) to (%g, %g, %g) m%s\n", lower[0], lower[1], lower[2],
               upper[0], upper[1], upper[2], data.cut ? ", body goes on beyond it" : "");
-  std::printf("bricks         %zu of %zu stored (%.1f %%), %d x %d x %d of 8^3 cells\n",
-              field.stored_bricks(), bricks, 100.0 * field.stored_bricks() / bricks, data.bricks[0],
-              data.bricks[1], data.bricks[2]);
-  std::printf("memory         %.2f MB\n", field.memory() / 1e6);
+  std::printf("bricks         %zu of %.0f stored (%.2g %%), %d x %d x %d of 4^3 samples\n",
+              data.stored_bricks(), all, 100.0 * data.stored_bricks() / all, bricks[0], bricks[1],
+              bricks[2]);
+  std::printf("memory         %.2f MB, %zu bytes per sample; a dense grid %.4g MB\n",
+              field.memory() / 1e6, data.quantum > 0 ? sizeof(std::int16_t) : sizeof(float),
+              all * SampledDistance::samples_per_brick * sizeof(float) / 1e6);
 }
 
-VolumeGrid volume_grid(const SampledDistance& field, int halvings) {
-  VolumeGrid grid{field.lower(), SampledDistance::brick_cells * field.data().spacing,
-                  field.data().bricks, halvings};
-  return grid;
+// Volume of the solid in the box of the field; cells of the field are halved `halvings` times.
+double volume_in_box(const Shape& shape, const SampledDistance& field, int halvings) {
+  constexpr int cubes = 3;  // halvings from the largest cube to a cell
+  const Vec3 size = field.upper() - field.lower();
+  const double edge = field.data().spacing * (1 << cubes);
+  VolumeGrid grid{field.lower(), edge, {}, cubes + halvings};
+  for (int d = 0; d < 3; ++d) grid.cells[d] = static_cast<int>(std::ceil(size[d] / edge - 1e-9));
+  const Shape box =
+      make_shape(Box{.center = 0.5 * (field.lower() + field.upper()), .half_size = 0.5 * size});
+  return solid_volume(*make_intersection({shape, box}), grid);
+}
+
+void print_features(const SignedDistance& shape, const SampledDistance& field) {
+  const double spacing = field.data().spacing, length = 20 * spacing;
+  const FeatureSize size = feature_size(shape, field, length);
+  const auto line = [&](const char* what, double value) {
+    std::printf("%-14s %s%.3g m = %.3g spacings\n", what, value < length ? "" : "at least ", value,
+                value / spacing);
+  };
+  line("thinnest wall", size.thinnest_wall);
+  line("narrowest gap", size.narrowest_gap);
+  if (size.thin_share > 0)
+    std::printf(
+        "  warning      %.2g %% of the surface has a wall or gap below two spacings: choose "
+        "a smaller spacing\n",
+        100 * size.thin_share);
+}
+
+void draw(const Options& options, const SampledDistance& field) {
+  if (options.picture.empty()) return;
+  Slice slice{options.slice_axis[0] - 'x', 0.0};
+  slice.position =
+      options.slice_position.value_or(0.5 * (field.lower() + field.upper())[slice.axis]);
+  write_slice_picture(options.picture, field, slice);
+  std::printf("picture        %s, %s = %g m\n", options.picture.c_str(), options.slice_axis.c_str(),
+              slice.position);
+}
+
+// Says every tenth on the error output.
+std::function<void(double)> progress_report() {
+  return [said = 0](double share) mutable {
+    const int tenth = static_cast<int>(10 * share);
+    if (tenth <= said) return;
+    said = tenth;
+    std::fprintf(stderr, "sampling %d %%\n", 10 * tenth);
+  };
 }
 
 int write_field(const Options& options) {
   const Subject subject =
       options.case_file.empty() ? read_stl_files(options) : read_case_body(options);
   std::fputs(subject.shape->remarks().c_str(), stdout);
-  const SampledDistance field = sample_shape(*subject.shape, sampling_box(options, subject));
-  check_closed(field, subject.name);
-  write_sdf(options.output, field);
+  const auto field = std::make_shared<const SampledDistance>(
+      sample_shape(*subject.shape, sampling_box(options, subject),
+                   {.threads = options.threads, .progress = progress_report()}));
+  check_closed(*field, subject.name);
+  write_sdf(options.output, *field);
 
   std::printf("written        %s, from %s\n", options.output.c_str(), subject.name.c_str());
-  print_field(field);
-  // cells halved once for the field, twice for the shape it was made of
-  const double volume = solid_volume(field, volume_grid(field, 4));
-  const double finer = solid_volume(*subject.shape, volume_grid(field, 5));
+  print_field(*field);
+  const double volume = volume_in_box(field, *field, 1);
+  const double finer = volume_in_box(subject.shape, *field, 2);
   std::printf("solid volume   %.8g m^3 in the box, %+.2e of a finer estimate (%.8g m^3)\n", volume,
               (volume - finer) / finer, finer);
+  print_features(*subject.shape, *field);
+  draw(options, *field);
   return 0;
 }
 
 int inspect(const Options& options) {
-  const SampledDistance field = read_sdf(options.inspect);
+  const auto field = std::make_shared<const SampledDistance>(read_sdf(options.inspect));
   std::printf("file           %s\n", options.inspect.c_str());
-  print_field(field);
-  const std::vector<double>& samples = field.data().samples;
-  if (!samples.empty()) {
-    const auto [smallest, largest] = std::minmax_element(samples.begin(), samples.end());
-    std::printf("samples        from %g to %g m\n", *smallest, *largest);
-  }
-  std::printf("solid volume   %.8g m^3 in the box\n", solid_volume(field, volume_grid(field, 4)));
-  check_closed(field, options.inspect);
+  print_field(*field);
+  std::printf("solid volume   %.8g m^3 in the box\n", volume_in_box(field, *field, 1));
+  print_features(*field, *field);
+  draw(options, *field);
+  check_closed(*field, options.inspect);
   std::printf("closed         yes\n");
   return 0;
 }
@@ -188,6 +247,15 @@ void declare(CLI::App& app, Options& options) {
       app.add_option("--upper", options.upper, "Opposite corner of the box, m")->expected(3);
   lower->needs(upper);
   upper->needs(lower);
+  app.add_option("--interpolation", options.interpolation,
+                 "quadratic (smooth force) or linear (faster)")
+      ->check(CLI::IsMember({"quadratic", "linear"}));
+  app.add_flag("--compact", options.compact, "2 bytes per sample instead of 4");
+  app.add_option("--threads", options.threads, "Threads (all cores)")->check(CLI::PositiveNumber);
+  app.add_option("--picture", options.picture, "Slice through the field (PNG)");
+  app.add_option("--slice-axis", options.slice_axis, "Normal of the slice (y)")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  app.add_option("--slice-position", options.slice_position, "Along that axis, m (the middle)");
   app.add_flag("--allow-cut", options.allow_cut, "The body may go on beyond the box");
 }
 

@@ -74,6 +74,14 @@ hid_t memory_type<double>() {
   return H5T_NATIVE_DOUBLE;
 }
 template <>
+hid_t memory_type<float>() {
+  return H5T_NATIVE_FLOAT;
+}
+template <>
+hid_t memory_type<std::int16_t>() {
+  return H5T_NATIVE_INT16;
+}
+template <>
 hid_t memory_type<std::int32_t>() {
   return H5T_NATIVE_INT32;
 }
@@ -305,6 +313,22 @@ std::vector<std::uint64_t> Hdf5File::size(const std::string& dataset) const {
   return result;
 }
 
+namespace {
+
+// Whether the file holds all values that the dataset claims; a damaged size must not take memory.
+bool is_stored(hid_t file, const std::string& dataset, const ArrayBlock& block) {
+  const QuietErrors quiet;
+  const Handle set(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  hsize_t bytes = 0;
+  if (!set.valid() || H5Fget_filesize(file, &bytes) < 0) return false;
+  const Handle type(H5Dget_type(set), H5Tclose);
+  double claimed = static_cast<double>(H5Tget_size(type));
+  for (const std::uint64_t n : block.global) claimed *= static_cast<double>(n);
+  return claimed <= static_cast<double>(bytes);
+}
+
+}  // namespace
+
 template <class T>
 void Hdf5File::read(const std::string& dataset, const ArrayBlock& block, T* values) const {
   check_block(block);
@@ -323,6 +347,7 @@ void Hdf5File::read(const std::string& dataset, const ArrayBlock& block, T* valu
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& dataset) const {
   const ArrayBlock block = ArrayBlock::whole(size(dataset));
+  if (!is_stored(id_, dataset, block)) fail("read dataset '" + dataset + "', its size is damaged");
   std::vector<T> values(product(block.global));
   read(dataset, block, values.data());
   return values;
@@ -350,6 +375,8 @@ std::string Hdf5File::read_text(const std::string& dataset) const {
   template void Hdf5File::read(const std::string&, const ArrayBlock&, T*) const;      \
   template std::vector<T> Hdf5File::read(const std::string&) const;
 GASGRAIN_HDF5_TYPE(double)
+GASGRAIN_HDF5_TYPE(float)
+GASGRAIN_HDF5_TYPE(std::int16_t)
 GASGRAIN_HDF5_TYPE(std::int32_t)
 GASGRAIN_HDF5_TYPE(std::int64_t)
 #undef GASGRAIN_HDF5_TYPE

@@ -41,8 +41,8 @@ class Hdf5File {
   void flush();
   void close();
 
-  // T: double, std::int32_t or std::int64_t. Attributes belong to the root group, same value on
-  // every rank; missing groups of a dataset's path are created.
+  // T: double, float, std::int16_t, std::int32_t or std::int64_t. Attributes belong to the root
+  // group, same value on every rank; missing groups of a dataset's path are created.
   template <class T>
   void write_attribute(const std::string& name, const std::vector<T>& values);
   void write_attribute(const std::string& name, const std::string& text);

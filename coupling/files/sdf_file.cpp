@@ -1,9 +1,10 @@
-// SDF file, version 1: attributes format, version, lower, spacing, band, cut, brick_cells; datasets
-// /bricks/slot and /bricks/far_value (z, y, x) and /samples (stored brick, z, y, x).
+// SDF file, version 2: what BrickSamples holds, one attribute or dataset per member; arrays of the
+// grid have the slowest index (z) first. Format: docs/geometry.md.
 #include "coupling/files/sdf_file.hpp"
 
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -16,24 +17,38 @@ namespace gasgrain {
 namespace {
 
 constexpr const char* format_name = "gasgrain signed distance";
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
+
+const char* name_of(Interpolation interpolation) {
+  return interpolation == Interpolation::linear ? "linear" : "quadratic";
+}
 
 void write_field(Hdf5File& file, const BrickSamples& data) {
   file.write_attribute("format", std::string(format_name));
   file.write_attribute<std::int64_t>("version", {format_version});
-  file.write_attribute<std::int64_t>("brick_cells", {SampledDistance::brick_cells});
+  file.write_attribute<std::int64_t>("brick_points", {SampledDistance::brick_points});
   file.write_attribute<double>("lower", {data.lower[0], data.lower[1], data.lower[2]});
   file.write_attribute<double>("spacing", {data.spacing});
   file.write_attribute<double>("band", {data.band});
+  file.write_attribute<double>("quantum", {data.quantum});
   file.write_attribute<std::int64_t>("cut", {data.cut ? 1 : 0});
-  const auto size = [](int n) { return static_cast<std::uint64_t>(n); };
+  file.write_attribute("interpolation", std::string(name_of(data.interpolation)));
+  file.write_attribute<std::int64_t>("bricks", {data.bricks[0], data.bricks[1], data.bricks[2]});
+  const auto size = [](auto n) { return static_cast<std::uint64_t>(n); };
+  const Index3 n = data.blocks();
+  const ArrayBlock blocks = ArrayBlock::whole({size(n[2]), size(n[1]), size(n[0])});
+  file.write("/blocks/table", blocks, data.table.data());
+  file.write("/blocks/far_value", blocks, data.block_value.data());
+  constexpr std::uint64_t b = SampledDistance::block_bricks, p = SampledDistance::brick_points;
   const ArrayBlock bricks =
-      ArrayBlock::whole({size(data.bricks[2]), size(data.bricks[1]), size(data.bricks[0])});
+      ArrayBlock::whole({data.slot.size() / SampledDistance::bricks_per_block, b, b, b});
   file.write("/bricks/slot", bricks, data.slot.data());
   file.write("/bricks/far_value", bricks, data.far_value.data());
-  constexpr std::uint64_t n = SampledDistance::brick_points;
-  const std::uint64_t stored = data.samples.size() / SampledDistance::samples_per_brick;
-  file.write("/samples", ArrayBlock::whole({stored, n, n, n}), data.samples.data());
+  const ArrayBlock samples = ArrayBlock::whole({data.stored_bricks(), p, p, p});
+  if (data.quantum > 0)
+    file.write("/samples", samples, data.compact_samples.data());
+  else
+    file.write("/samples", samples, data.samples.data());
 }
 
 void check_header(const Hdf5File& file, const std::string& path) {
@@ -41,12 +56,20 @@ void check_header(const Hdf5File& file, const std::string& path) {
     throw UserError("'" + path + "' is no SDF file of gasgrain; write one with gasgrain-sdf");
   }
   const std::int64_t version = file.attribute<std::int64_t>("version").at(0);
-  const std::int64_t cells = file.attribute<std::int64_t>("brick_cells").at(0);
-  if (version != format_version || cells != SampledDistance::brick_cells) {
+  if (version != format_version) {
     throw UserError("SDF file '" + path + "' has version " + std::to_string(version) +
-                    " with bricks of " + std::to_string(cells) + " cells, but this program reads " +
-                    "version 1 with 8; write it again with this program's gasgrain-sdf");
+                    ", but this program reads version " + std::to_string(format_version) +
+                    "; write it again with this program's gasgrain-sdf");
   }
+  if (file.attribute<std::int64_t>("brick_points").at(0) != SampledDistance::brick_points)
+    throw UserError("SDF file '" + path + "' has bricks of another size; write it again");
+}
+
+Interpolation interpolation_of(const Hdf5File& file, const std::string& path) {
+  const std::string name = file.text_attribute("interpolation");
+  for (const Interpolation known : {Interpolation::linear, Interpolation::quadratic})
+    if (name == name_of(known)) return known;
+  throw UserError("SDF file '" + path + "': unknown interpolation '" + name + "'");
 }
 
 // One number of an attribute that must hold `count` of them.
@@ -81,14 +104,22 @@ SampledDistance read_sdf(const std::string& path) {
   data.spacing = attribute<double>(file, path, "spacing", 1)[0];
   data.band = attribute<double>(file, path, "band", 1)[0];
   data.cut = attribute<std::int64_t>(file, path, "cut", 1)[0] != 0;
-  const std::vector<std::uint64_t> bricks = file.size("/bricks/slot");
-  if (bricks.size() != 3) {
-    throw UserError("SDF file '" + path + "': /bricks/slot must have three dimensions");
+  data.quantum = attribute<double>(file, path, "quantum", 1)[0];
+  data.interpolation = interpolation_of(file, path);
+  const std::vector<std::int64_t> bricks = attribute<std::int64_t>(file, path, "bricks", 3);
+  for (int d = 0; d < 3; ++d) {
+    if (bricks[d] < 1 || bricks[d] > std::numeric_limits<int>::max() / 8)
+      throw UserError("SDF file '" + path + "': attribute 'bricks' is not valid");
+    data.bricks[d] = static_cast<int>(bricks[d]);
   }
-  for (int d = 0; d < 3; ++d) data.bricks[d] = static_cast<int>(bricks[2 - d]);
+  data.table = file.read<std::int32_t>("/blocks/table");
+  data.block_value = file.read<float>("/blocks/far_value");
   data.slot = file.read<std::int32_t>("/bricks/slot");
-  data.far_value = file.read<double>("/bricks/far_value");
-  data.samples = file.read<double>("/samples");
+  data.far_value = file.read<float>("/bricks/far_value");
+  if (data.quantum > 0)
+    data.compact_samples = file.read<std::int16_t>("/samples");
+  else
+    data.samples = file.read<float>("/samples");
   try {
     return SampledDistance(std::move(data));
   } catch (const UserError& error) {

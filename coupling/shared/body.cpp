@@ -175,10 +175,15 @@ void read_acts_on(const ConfigTable& table, Body& body) {
   }
 }
 
+Interpolation read_interpolation(const ConfigTable& table) {
+  const std::string name = table.choice_or("interpolation", "quadratic", {"linear", "quadratic"});
+  return name == "linear" ? Interpolation::linear : Interpolation::quadratic;
+}
+
 // Replaces the shape by its samples when the table gives a `spacing`.
 void sample_if_asked(const ConfigTable& table, Body& body) {
   if (!table.has("spacing")) {
-    for (const char* key : {"lower", "upper", "band", "cut"}) {
+    for (const char* key : {"lower", "upper", "band", "cut", "interpolation"}) {
       if (table.has(key)) table.fail(key, "belongs to a sampled body; give `spacing` as well");
     }
     return;
@@ -188,7 +193,8 @@ void sample_if_asked(const ConfigTable& table, Body& body) {
                   .upper = table.vector("upper"),
                   .spacing = spacing,
                   .band = table.number_or("band", default_band(spacing), Range::positive()),
-                  .cut = table.flag_or("cut", false)};
+                  .cut = table.flag_or("cut", false),
+                  .interpolation = read_interpolation(table)};
   try {
     auto field = std::make_shared<const SampledDistance>(sample_shape(*body.shape, box));
     check_closed(*field, "body '" + body.name + "'");
@@ -206,7 +212,8 @@ Body read_body(const ConfigTable& table, ShapeFileLoader load_file) {
   table.has("surface_velocity");
   table.has("motion");
   table.has("torque_point");
-  for (const char* key : {"spacing", "lower", "upper", "band", "cut"}) table.has(key);
+  for (const char* key : {"spacing", "lower", "upper", "band", "cut", "interpolation"})
+    table.has(key);
   body.shape = read_shape(table, load_file);
   read_acts_on(table, body);
   body.surface_velocity = table.vector_or("surface_velocity", Vec3::Zero());

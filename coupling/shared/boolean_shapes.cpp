@@ -54,6 +54,21 @@ double resolved_range(const std::vector<Shape>& parts) {
   for (const Shape& part : parts) range = std::min(range, part->resolved_range());
   return range;
 }
+double steepest_gradient(const std::vector<Shape>& parts) {
+  double steepest = 0.0;
+  for (const Shape& part : parts) steepest = std::max(steepest, part->steepest_gradient());
+  return steepest;
+}
+double steepest_gradient(const Union& solid) {
+  return steepest_gradient(solid.parts);
+}
+double steepest_gradient(const Intersection& solid) {
+  return steepest_gradient(solid.parts);
+}
+double steepest_gradient(const Complement& solid) {
+  return solid.shape->steepest_gradient();
+}
+
 std::string remarks(const std::vector<Shape>& parts) {
   std::string lines;
   for (const Shape& part : parts) lines += part->remarks();
@@ -84,6 +99,7 @@ class BooleanShape final : public MeasuredShape<Solid> {
  public:
   using MeasuredShape<Solid>::MeasuredShape;
   double resolved_range() const override { return gasgrain::resolved_range(this->solid_); }
+  double steepest_gradient() const override { return gasgrain::steepest_gradient(this->solid_); }
   std::string remarks() const override { return gasgrain::remarks(this->solid_); }
 };
 

@@ -1,4 +1,7 @@
-// Storage checks and the continuation outside of the sampled box; see the header for the scheme.
+// Storage checks, interpolation, and the continuation outside of the sampled box.
+//
+// Interpolation gathers the samples first, from one brick (which is frequent) or from up to eight,
+// and then contracts them direction by direction, value and derivative together.
 #include "coupling/shared/sampled_distance.hpp"
 
 #include <cmath>
@@ -11,6 +14,9 @@ namespace gasgrain {
 
 namespace {
 
+constexpr int brick_row = SampledDistance::brick_points;
+constexpr int brick_layer = brick_row * brick_row;
+
 void require(bool condition, const char* what) {
   if (!condition) {
     throw UserError(std::string("sampled distance: ") + what +
@@ -18,8 +24,15 @@ void require(bool condition, const char* what) {
   }
 }
 
-bool all_finite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+bool all_finite(const std::vector<float>& values) {
+  return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+}
+
+// `index` points to one of `count` parts, or is -1 and `bound` holds beyond the band.
+bool is_consistent(std::int32_t index, std::size_t count, float bound, double band) {
+  constexpr double rounding = 1e-6;
+  if (index >= 0) return static_cast<std::size_t>(index) < count;
+  return std::abs(bound) >= (1 - rounding) * band;
 }
 
 void check(const BrickSamples& data) {
@@ -28,51 +41,250 @@ void check(const BrickSamples& data) {
   require(std::isfinite(data.band) && data.band > 0, "band is not positive");
   require(*std::min_element(data.bricks.begin(), data.bricks.end()) > 0,
           "number of bricks is not positive");
-  const std::size_t bricks =
-      static_cast<std::size_t>(data.bricks[0]) * data.bricks[1] * data.bricks[2];
-  require(data.slot.size() == bricks && data.far_value.size() == bricks,
+  const Index3 n = data.blocks();
+  const std::size_t blocks = static_cast<std::size_t>(n[0]) * n[1] * n[2];
+  require(data.table.size() == blocks && data.block_value.size() == blocks,
+          "block index has the wrong size");
+  require(data.slot.size() % SampledDistance::bricks_per_block == 0 &&
+              data.far_value.size() == data.slot.size(),
           "brick index has the wrong size");
-  require(data.samples.size() % SampledDistance::samples_per_brick == 0,
-          "samples are not whole bricks");
-  const auto stored =
-      static_cast<std::int64_t>(data.samples.size() / SampledDistance::samples_per_brick);
-  for (std::size_t b = 0; b < bricks; ++b) {
-    require(data.slot[b] < stored, "brick index points beyond the samples");
-    require(data.slot[b] >= 0 || std::abs(data.far_value[b]) >= data.band,
-            "a brick that is not stored lies within the band");
+  require(
+      (data.samples.size() + data.compact_samples.size()) % SampledDistance::samples_per_brick ==
+              0 &&
+          (data.samples.empty() || data.compact_samples.empty()),
+      "samples are not whole bricks");
+  require(std::isfinite(data.quantum) && (data.quantum > 0 || data.compact_samples.empty()),
+          "quantum of the samples is not valid");
+  const std::size_t tables = data.slot.size() / SampledDistance::bricks_per_block;
+  for (std::size_t b = 0; b < blocks; ++b)
+    require(is_consistent(data.table[b], tables, data.block_value[b], data.band),
+            "block index points beyond the bricks, or a far block lies within the band");
+  for (std::size_t b = 0; b < data.slot.size(); ++b)
+    require(is_consistent(data.slot[b], data.stored_bricks(), data.far_value[b], data.band),
+            "brick index points beyond the samples, or a far brick lies within the band");
+  require(all_finite(data.block_value) && all_finite(data.far_value) && all_finite(data.samples),
+          "a sample is not finite");
+}
+
+// Weights of `count` samples and their derivatives at `f`: place within the cell (linear, 0..1) or
+// from the middle sample (quadratic, -1/2..1/2).
+template <int count>
+void set_weights(double f, double* weight, double* slope) {
+  if constexpr (count == 2) {
+    weight[0] = 1 - f;
+    weight[1] = f;
+    slope[0] = -1;
+    slope[1] = 1;
+  } else {
+    weight[0] = 0.5 * (0.5 - f) * (0.5 - f);
+    weight[1] = 0.75 - f * f;
+    weight[2] = 0.5 * (0.5 + f) * (0.5 + f);
+    slope[0] = f - 0.5;
+    slope[1] = -2 * f;
+    slope[2] = f + 0.5;
   }
-  require(all_finite(data.far_value) && all_finite(data.samples), "a sample is not finite");
+}
+
+template <int count>
+double dot(const double* a, const double* b) {
+  double sum = 0.0;
+  for (int n = 0; n < count; ++n) sum += a[n] * b[n];
+  return sum;
 }
 
 }  // namespace
 
+Index3 BrickSamples::blocks() const {
+  Index3 result;
+  for (int d = 0; d < 3; ++d)
+    result[d] = (bricks[d] + SampledDistance::block_bricks - 1) / SampledDistance::block_bricks;
+  return result;
+}
+
+std::size_t BrickSamples::stored_bricks() const {
+  return (samples.size() + compact_samples.size()) / SampledDistance::samples_per_brick;
+}
+
 SampledDistance::SampledDistance(BrickSamples data) : data_(std::move(data)) {
   check(data_);
+  blocks_ = data_.blocks();
   inverse_spacing_ = 1.0 / data_.spacing;
-  for (int d = 0; d < 3; ++d) cells_[d] = data_.bricks[d] * brick_cells;
+  for (int d = 0; d < 3; ++d) cells_[d] = data_.bricks[d] * brick_points - 3;
   find_surroundings();
 }
 
-std::size_t SampledDistance::memory() const {
-  return data_.slot.size() * (sizeof(std::int32_t) + sizeof(double)) +
-         data_.samples.size() * sizeof(double);
+// Distances of neighbouring samples differ by a spacing at most; coefficients at kinks by more.
+double SampledDistance::steepest_gradient() const {
+  constexpr double largest_difference = 1.75;
+  return std::sqrt(3.0) * (data_.interpolation == Interpolation::linear ? 1.0 : largest_difference);
 }
 
-// Scans the samples on the six sides of the box.
+std::size_t SampledDistance::memory() const {
+  return (data_.table.size() + data_.slot.size()) * (sizeof(std::int32_t) + sizeof(float)) +
+         data_.samples.size() * sizeof(float) + data_.compact_samples.size() * sizeof(std::int16_t);
+}
+
+double SampledDistance::stored(std::int32_t slot, const Index3& point) const {
+  const std::size_t n = static_cast<std::size_t>(slot) * samples_per_brick +
+                        point[2] * brick_layer + point[1] * brick_row + point[0];
+  return data_.quantum > 0 ? data_.quantum * data_.compact_samples[n]
+                           : static_cast<double>(data_.samples[n]);
+}
+
+Vec3 SampledDistance::position(const Index3& brick, const Index3& point) const {
+  Vec3 steps;
+  for (int d = 0; d < 3; ++d) steps[d] = brick[d] * brick_points + point[d] - 1;
+  return data_.lower + data_.spacing * steps;
+}
+
+DistanceSample SampledDistance::sample(const Vec3& x) const {
+  const Vec3 position = (x - data_.lower) * inverse_spacing_;
+  if ((position.array() >= 0.0).all() && (position.array() <= cells_.array()).all())
+    return sample_inside(position);
+  return sample_outside(x);
+}
+
+// `position` in cells from the corner of the box, within the box.
+DistanceSample SampledDistance::sample_inside(const Vec3& position) const {
+  return data_.interpolation == Interpolation::linear ? interpolate<2>(position)
+                                                      : interpolate<3>(position);
+}
+
+// Copies count^3 samples beginning with sample `first`; false when one of them is not stored.
+template <int count, class Sample>
+bool SampledDistance::gather(const Index3& first, const std::vector<Sample>& samples,
+                             double* values) const {
+  const Index3 home{first[0] / brick_points, first[1] / brick_points, first[2] / brick_points};
+  Index3 at;          // within the first brick
+  Index3 in_first{};  // how many samples of a row lie in it
+  for (int d = 0; d < 3; ++d) {
+    at[d] = first[d] % brick_points;
+    in_first[d] = std::min(count, brick_points - at[d]);
+  }
+  if (in_first == Index3{count, count, count}) {
+    const std::int32_t slot = brick(home).slot;
+    if (slot < 0) return false;
+    const Sample* own = samples.data() + static_cast<std::size_t>(slot) * samples_per_brick +
+                        at[2] * brick_layer + at[1] * brick_row + at[0];
+    for (int k = 0; k < count; ++k)
+      for (int j = 0; j < count; ++j)
+        for (int i = 0; i < count; ++i)
+          values[(k * count + j) * count + i] = own[k * brick_layer + j * brick_row + i];
+    return true;
+  }
+  return gather_from_several<count>(home, at, in_first, samples, values);
+}
+
+// The same from up to two bricks in each direction.
+template <int count, class Sample>
+bool SampledDistance::gather_from_several(const Index3& home, const Index3& at,
+                                          const Index3& in_first,
+                                          const std::vector<Sample>& samples,
+                                          double* values) const {
+  for (int part = 0; part < 8; ++part) {
+    const Index3 next{part & 1, part >> 1 & 1, part >> 2};
+    Index3 begin, end, shift;  // within `values`; from there into the brick
+    bool any = true;
+    for (int d = 0; d < 3; ++d) {
+      begin[d] = next[d] ? in_first[d] : 0;
+      end[d] = next[d] ? count : in_first[d];
+      shift[d] = next[d] ? -in_first[d] : at[d];
+      any = any && begin[d] < end[d];
+    }
+    if (!any) continue;
+    const std::int32_t slot = brick({home[0] + next[0], home[1] + next[1], home[2] + next[2]}).slot;
+    if (slot < 0) return false;
+    const Sample* own = samples.data() + static_cast<std::size_t>(slot) * samples_per_brick;
+    for (int k = begin[2]; k < end[2]; ++k)
+      for (int j = begin[1]; j < end[1]; ++j)
+        for (int i = begin[0]; i < end[0]; ++i)
+          values[(k * count + j) * count + i] =
+              own[(k + shift[2]) * brick_layer + (j + shift[1]) * brick_row + i + shift[0]];
+  }
+  return true;
+}
+
+// A bound where not all of the samples from `first` on are stored.
+template <int count>
+DistanceSample SampledDistance::far_sample(const Index3& first) const {
+  const Brick home =
+      brick({first[0] / brick_points, first[1] / brick_points, first[2] / brick_points});
+  if (home.slot < 0) return {home.far_value, Vec3::Zero()};
+  const double own = stored(
+      home.slot, {first[0] % brick_points, first[1] % brick_points, first[2] % brick_points});
+  return {std::copysign(data_.band, own), Vec3::Zero()};
+}
+
+template <int count>
+DistanceSample SampledDistance::interpolate(const Vec3& position) const {
+  Index3 first;
+  double weight[3][count], slope[3][count];
+  for (int d = 0; d < 3; ++d) {
+    if constexpr (count == 2) {
+      const int cell = std::min(static_cast<int>(position[d]), static_cast<int>(cells_[d]) - 1);
+      first[d] = cell + 1;
+      set_weights<count>(position[d] - cell, weight[d], slope[d]);
+    } else {
+      const int middle = static_cast<int>(position[d] + 0.5);
+      first[d] = middle;
+      set_weights<count>(position[d] - middle, weight[d], slope[d]);
+    }
+  }
+  double values[count * count * count];
+  double unit = 1.0;
+  bool complete;
+  if (data_.quantum > 0) {
+    complete = gather<count>(first, data_.compact_samples, values);
+    unit = data_.quantum;
+  } else {
+    complete = gather<count>(first, data_.samples, values);
+  }
+  if (!complete) return far_sample<count>(first);
+
+  double along_z[4][count];  // value and derivatives by x, y of each layer
+  for (int k = 0; k < count; ++k) {
+    double row[count], row_slope[count];
+    for (int j = 0; j < count; ++j) {
+      row[j] = dot<count>(weight[0], values + (k * count + j) * count);
+      row_slope[j] = dot<count>(slope[0], values + (k * count + j) * count);
+    }
+    along_z[0][k] = dot<count>(weight[1], row);
+    along_z[1][k] = dot<count>(weight[1], row_slope);
+    along_z[2][k] = dot<count>(slope[1], row);
+  }
+  const Vec3 gradient(dot<count>(weight[2], along_z[1]), dot<count>(weight[2], along_z[2]),
+                      dot<count>(slope[2], along_z[0]));
+  return {unit * dot<count>(weight[2], along_z[0]), (unit * inverse_spacing_) * gradient};
+}
+
+// Looks at the six sides of the box: at the bounds of far bricks, else at the samples' places.
 void SampledDistance::find_surroundings() {
   double smallest = std::numeric_limits<double>::infinity(), largest = -smallest;
+  const auto note = [&](double value) {
+    smallest = std::min(smallest, value);
+    largest = std::max(largest, value);
+  };
+  const auto last = [&](int d) { return static_cast<int>(cells_[d]); };
   for (int side = 0; side < 3; ++side) {
     const int u = (side + 1) % 3, v = (side + 2) % 3;
-    for (const double end : {0.0, cells_[side]}) {
-      for (int a = 0; a <= data_.bricks[u] * brick_cells; ++a) {
-        for (int b = 0; b <= data_.bricks[v] * brick_cells; ++b) {
-          Vec3 position;
-          position[side] = end;
-          position[u] = a;
-          position[v] = b;
-          const double value = sample_inside(position).distance;
-          smallest = std::min(smallest, value);
-          largest = std::max(largest, value);
+    for (const int end : {0, last(side)}) {
+      Index3 home;
+      home[side] = (end + 1) / brick_points;
+      for (home[v] = 0; home[v] < data_.bricks[v]; ++home[v]) {
+        for (home[u] = 0; home[u] < data_.bricks[u]; ++home[u]) {
+          const Brick own = brick(home);
+          if (own.slot < 0) {
+            note(own.far_value);
+            continue;
+          }
+          for (int n = 0; n < brick_layer; ++n) {
+            Vec3 place;
+            place[side] = end;
+            place[u] = home[u] * brick_points + n % brick_row - 1;
+            place[v] = home[v] * brick_points + n / brick_row - 1;
+            if (place[u] >= 0 && place[v] >= 0 && place[u] <= last(u) && place[v] <= last(v))
+              note(sample_inside(place).distance);
+          }
         }
       }
     }

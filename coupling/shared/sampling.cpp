@@ -1,15 +1,20 @@
-// Sampling by bricks, and the check that neighbouring samples are consistent.
+// Sampling by blocks and bricks: first which bricks are needed, then their samples, so that memory
+// is taken once and for what is stored only.
 //
-// phi is 1-Lipschitz: |phi(x) - phi(y)| <= |x - y|. So a brick whose centre has |phi| > band + half
-// its diagonal lies outside of the band everywhere and |phi| minus half the diagonal bounds all of
-// it; and neighbouring samples of a true distance differ by one spacing at most, whereas a field
-// with a hole changes its sign by a jump. Jumps without change of sign beyond the band are
-// harmless: there a shape made of another sampled field returns bounds.
+// phi is 1-Lipschitz: |phi(x) - phi(y)| <= |x - y|. A sample is used up to `reach` = 3/2 spacings
+// away from it in each direction. So a group of samples whose centre has |phi| > band + R, with R
+// the half diagonal of the group enlarged by the reach, is not needed, and |phi| - R bounds phi
+// wherever a sample of it would be used.
 #include "coupling/shared/sampling.hpp"
 
+#include <atomic>
 #include <cmath>
+#include <exception>
 #include <limits>
+#include <mutex>
 #include <sstream>
+#include <thread>
+#include <utility>
 
 #include "coupling/shared/error.hpp"
 
@@ -17,68 +22,220 @@ namespace gasgrain {
 
 namespace {
 
-constexpr int cells = SampledDistance::brick_cells;
 constexpr int points = SampledDistance::brick_points;
-constexpr double lipschitz_tolerance = 1e-3;  // share of a spacing: files may hold rounded values
-constexpr double most_bricks = 1e8;           // about 1.2 GB of index
-
-template <class Function>
-void for_each_point(const Function& function) {
-  for (int k = 0; k < points; ++k) {
-    for (int j = 0; j < points; ++j) {
-      for (int i = 0; i < points; ++i) function(std::array<int, 3>{i, j, k});
-    }
-  }
-}
-
-std::size_t offset(const std::array<int, 3>& point) {
-  return (static_cast<std::size_t>(point[2]) * points + point[1]) * points + point[0];
-}
-
-std::size_t brick_index(const BrickSamples& data, const std::array<int, 3>& brick) {
-  return (static_cast<std::size_t>(brick[2]) * data.bricks[1] + brick[1]) * data.bricks[0] +
-         brick[0];
-}
-
-Vec3 position(const BrickSamples& data, const std::array<int, 3>& brick,
-              const std::array<int, 3>& point) {
-  Vec3 steps;
-  for (int d = 0; d < 3; ++d) steps[d] = brick[d] * cells + point[d];
-  return data.lower + data.spacing * steps;
-}
-
-template <class Function>
-void for_each_brick(const BrickSamples& data, const Function& function) {
-  for (int k = 0; k < data.bricks[2]; ++k) {
-    for (int j = 0; j < data.bricks[1]; ++j) {
-      for (int i = 0; i < data.bricks[0]; ++i) function(std::array<int, 3>{i, j, k});
-    }
-  }
-}
-
-// Bound of |phi| in a whole brick with its sign, or 0 when the brick touches the band.
-double far_value(const SignedDistance& shape, const BrickSamples& data,
-                 const std::array<int, 3>& brick) {
-  const double half_diagonal = 0.5 * std::sqrt(3.0) * cells * data.spacing;
-  const Vec3 center = position(data, brick, {0, 0, 0}) + Vec3::Constant(0.5 * cells * data.spacing);
-  const double phi = shape.distance(center);
-  const double bound = std::abs(phi) - half_diagonal;
-  return bound >= data.band ? std::copysign(bound, phi) : 0.0;
-}
-
-void store_brick(const SignedDistance& shape, const std::array<int, 3>& brick, BrickSamples& data) {
-  data.slot[brick_index(data, brick)] =
-      static_cast<std::int32_t>(data.samples.size() / SampledDistance::samples_per_brick);
-  for_each_point([&](const std::array<int, 3>& point) {
-    data.samples.push_back(shape.distance(position(data, brick, point)));
-  });
-}
+constexpr int bricks_per_side = SampledDistance::block_bricks;
+constexpr double reach = 1.5;            // spacings
+constexpr double most_blocks = 5e7;      // 400 MB of index
+constexpr double most_bricks = 2e9;      // they are numbered by 32 bits
+constexpr double compact_margin = 10.0;  // spacings beyond the band that samples may lie
 
 std::string text(const Vec3& x) {
   std::ostringstream out;
   out << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
   return out.str();
 }
+
+Index3 index_of(std::size_t n, const Index3& size) {
+  const std::size_t row = size[0], layer = row * size[1];
+  return {static_cast<int>(n % row), static_cast<int>(n % layer / row),
+          static_cast<int>(n / layer)};
+}
+
+constexpr Index3 cube(int n) {
+  return {n, n, n};
+}
+
+std::size_t count_of(const Index3& size) {
+  return static_cast<std::size_t>(size[0]) * size[1] * size[2];
+}
+
+// Calls work(n) for n < count, in any order; the first exception is thrown on.
+template <class Work>
+void for_each_in_parallel(std::size_t count, const SamplingEffort& effort, double from, double to,
+                          const Work& work) {
+  std::atomic<std::size_t> next{0};
+  std::size_t done = 0;
+  std::mutex mutex;
+  std::exception_ptr error;
+  const auto run = [&] {
+    try {
+      for (std::size_t n = next++; n < count; n = next++) {
+        work(n);
+        if (!effort.progress) continue;
+        const std::lock_guard lock(mutex);
+        effort.progress(from + (to - from) * static_cast<double>(++done) / count);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!error) error = std::current_exception();
+      next = count;
+    }
+  };
+  std::vector<std::thread> others;
+  for (int t = 1; t < effort.threads; ++t) others.emplace_back(run);
+  run();
+  for (std::thread& thread : others) thread.join();
+  if (error) std::rethrow_exception(error);
+}
+
+class Sampler {
+ public:
+  Sampler(const SignedDistance& shape, const SamplingBox& box, const SamplingEffort& effort)
+      : shape_(shape), box_(box), effort_(effort) {}
+
+  BrickSamples run() {
+    prepare();
+    choose_blocks();
+    choose_bricks();
+    fill();
+    return std::move(data_);
+  }
+
+ private:
+  void prepare() {
+    data_.lower = box_.lower;
+    data_.spacing = box_.spacing;
+    data_.band = box_.band;
+    data_.cut = box_.cut;
+    data_.interpolation = box_.interpolation;
+    const Vec3 cells = ((box_.upper - box_.lower) / box_.spacing).array() - 1e-9;
+    for (int d = 0; d < 3; ++d)
+      data_.bricks[d] = static_cast<int>(std::ceil((std::max(cells[d], 1.0) + 3.0) / points));
+    const std::size_t blocks = count_of(data_.blocks());
+    data_.table.assign(blocks, -1);
+    data_.block_value.assign(blocks, 0.0f);
+    if (box_.storage == SampleStorage::compact)
+      data_.quantum =
+          (box_.band + compact_margin * box_.spacing) / std::numeric_limits<std::int16_t>::max();
+  }
+
+  // Position of sample `n` (counted over all bricks), m; fractions are in between.
+  Vec3 position(const Vec3& n) const { return data_.lower + data_.spacing * (n - Vec3::Ones()); }
+
+  // Bound of |phi| where samples of a group are used, with its sign; 0 when they are needed.
+  float far_value(const Index3& first, int count) const {
+    const Vec3 centre = Vec3(first[0], first[1], first[2]) + Vec3::Constant(0.5 * (count - 1));
+    const double radius = std::sqrt(3.0) * (0.5 * (count - 1) + reach) * data_.spacing;
+    const double phi = shape_.distance(position(centre));
+    const double bound = std::abs(phi) - radius;
+    if (bound < data_.band) return 0.0f;
+    const float value = std::nextafter(static_cast<float>(bound), 0.0f);  // not above the bound
+    return std::copysign(value, static_cast<float>(phi));
+  }
+
+  void choose_blocks() {
+    const Index3 blocks = data_.blocks();
+    for_each_in_parallel(data_.table.size(), effort_, 0.0, 0.05, [&](std::size_t b) {
+      constexpr int size = bricks_per_side * points;
+      const Index3 block = index_of(b, blocks);
+      data_.block_value[b] = far_value({block[0] * size, block[1] * size, block[2] * size}, size);
+    });
+    for (std::size_t b = 0; b < data_.table.size(); ++b) {
+      if (data_.block_value[b] != 0.0f) continue;
+      data_.table[b] = static_cast<std::int32_t>(divided_.size());
+      divided_.push_back(b);
+    }
+  }
+
+  // The brick of that place in `slot`.
+  Index3 brick_at(std::size_t n) const {
+    const Index3 block = index_of(divided_[n / SampledDistance::bricks_per_block], data_.blocks());
+    Index3 brick = index_of(n % SampledDistance::bricks_per_block, cube(bricks_per_side));
+    for (int d = 0; d < 3; ++d) brick[d] += block[d] * bricks_per_side;
+    return brick;
+  }
+
+  void choose_bricks() {
+    constexpr std::size_t size = SampledDistance::bricks_per_block;
+    data_.slot.assign(divided_.size() * size, -1);
+    data_.far_value.assign(data_.slot.size(), 0.0f);
+    for_each_in_parallel(divided_.size(), effort_, 0.05, 0.15, [&](std::size_t t) {
+      for (std::size_t n = t * size; n < (t + 1) * size; ++n) {
+        const Index3 brick = brick_at(n);
+        data_.far_value[n] =
+            far_value({brick[0] * points, brick[1] * points, brick[2] * points}, points);
+      }
+    });
+    std::size_t stored = 0;
+    for (std::size_t n = 0; n < data_.slot.size(); ++n) {
+      if (data_.far_value[n] != 0.0f) continue;
+      const Index3 brick = brick_at(n);
+      const bool exists =
+          brick[0] < data_.bricks[0] && brick[1] < data_.bricks[1] && brick[2] < data_.bricks[2];
+      if (exists)
+        data_.slot[n] = static_cast<std::int32_t>(stored++);
+      else
+        data_.far_value[n] = static_cast<float>(2 * data_.band);  // beyond the box, never asked for
+    }
+    if (static_cast<double>(stored) > most_bricks)
+      throw UserError("sampling needs " + std::to_string(stored) +
+                      " bricks; choose a larger spacing or a narrower band");
+    const std::size_t samples = stored * SampledDistance::samples_per_brick;
+    if (data_.quantum > 0)
+      data_.compact_samples.resize(samples);
+    else
+      data_.samples.resize(samples);
+  }
+
+  void fill() {
+    constexpr std::size_t size = SampledDistance::bricks_per_block;
+    for_each_in_parallel(divided_.size(), effort_, 0.15, 1.0, [&](std::size_t t) {
+      for (std::size_t n = t * size; n < (t + 1) * size; ++n)
+        if (data_.slot[n] >= 0) fill_brick(brick_at(n), data_.slot[n]);
+    });
+  }
+
+  void fill_brick(const Index3& brick, std::int32_t slot) {
+    double values[SampledDistance::samples_per_brick];
+    if (data_.interpolation == Interpolation::linear)
+      sample_distances(brick, values);
+    else
+      sample_coefficients(brick, values);
+    const std::size_t begin = static_cast<std::size_t>(slot) * SampledDistance::samples_per_brick;
+    for (int n = 0; n < SampledDistance::samples_per_brick; ++n) {
+      if (data_.quantum > 0)
+        data_.compact_samples[begin + n] =
+            static_cast<std::int16_t>(std::lround(values[n] / data_.quantum));
+      else
+        data_.samples[begin + n] = static_cast<float>(values[n]);
+    }
+  }
+
+  double distance_at(const Index3& brick, int i, int j, int k) const {
+    return shape_.distance(
+        position(Vec3(brick[0] * points + i, brick[1] * points + j, brick[2] * points + k)));
+  }
+
+  void sample_distances(const Index3& brick, double* values) const {
+    for (int k = 0; k < points; ++k)
+      for (int j = 0; j < points; ++j)
+        for (int i = 0; i < points; ++i) *values++ = distance_at(brick, i, j, k);
+  }
+
+  // s - (1/8) (sum of the second differences) = (1 + 6/8) s - (1/8) (sum of the six neighbours)
+  void sample_coefficients(const Index3& brick, double* values) const {
+    constexpr int wide = points + 2;
+    double s[wide][wide][wide];
+    const auto outside = [](int n) { return n == 0 || n == wide - 1; };
+    for (int k = 0; k < wide; ++k)
+      for (int j = 0; j < wide; ++j)
+        for (int i = 0; i < wide; ++i)
+          if (outside(i) + outside(j) + outside(k) < 2)  // no edges
+            s[k][j][i] = distance_at(brick, i - 1, j - 1, k - 1);
+    for (int k = 1; k <= points; ++k)
+      for (int j = 1; j <= points; ++j)
+        for (int i = 1; i <= points; ++i)
+          *values++ =
+              1.75 * s[k][j][i] - 0.125 * (s[k][j][i - 1] + s[k][j][i + 1] + s[k][j - 1][i] +
+                                           s[k][j + 1][i] + s[k - 1][j][i] + s[k + 1][j][i]);
+  }
+
+  const SignedDistance& shape_;
+  const SamplingBox& box_;
+  const SamplingEffort& effort_;
+  BrickSamples data_;
+  std::vector<std::size_t> divided_;  // blocks with bricks
+};
 
 void check_box(const SignedDistance& shape, const SamplingBox& box) {
   const Vec3 size = box.upper - box.lower;
@@ -87,151 +244,31 @@ void check_box(const SignedDistance& shape, const SamplingBox& box) {
                     " is empty; every upper coordinate must exceed the lower one");
   }
   std::ostringstream message;
-  const double bricks = (size / (cells * box.spacing)).array().ceil().prod();
-  if (bricks > most_bricks) {
-    message << "sampling box of " << text(size) << " m needs " << bricks
-            << " bricks at a spacing of " << box.spacing << " m, more than " << most_bricks
-            << "; choose a larger spacing";
+  const double blocks = (size / (bricks_per_side * points * box.spacing)).array().ceil().prod();
+  if (blocks > most_blocks) {
+    message << "sampling box of " << text(size) << " m needs " << blocks
+            << " blocks of 32^3 samples at a spacing of " << box.spacing << " m, more than "
+            << most_blocks << "; choose a larger spacing";
     throw UserError(message.str());
   }
-  if (box.band > shape.resolved_range()) {
+  // coefficients near the band need distances beyond it
+  const double needed =
+      box.band + (box.interpolation == Interpolation::quadratic ? 4.0 * box.spacing : 0.0);
+  if (needed > shape.resolved_range()) {
     message << "the band is " << box.band << " m, but the file that the body is made of resolves "
-            << shape.resolved_range() << " m only; give a narrower band";
+            << shape.resolved_range() << " m only; give a narrower band"
+            << (needed > box.band ? ": quadratic interpolation needs four spacings more" : "");
     throw UserError(message.str());
   }
 }
-
-class ClosedCheck {
- public:
-  ClosedCheck(const BrickSamples& data, const std::string& name) : data_(data), name_(name) {}
-
-  void run() {
-    for_each_brick(data_, [&](const std::array<int, 3>& brick) {
-      check_inside(brick);
-      for (int d = 0; d < 3; ++d) {
-        std::array<int, 3> next = brick;
-        if (++next[d] < data_.bricks[d]) check_shared_face(brick, next, d);
-      }
-    });
-  }
-
-  double smallest() const { return smallest_; }
-  double largest() const { return largest_; }
-
- private:
-  // Sample `point` of a brick, or the value of a brick that is not stored.
-  double value(const std::array<int, 3>& brick, const std::array<int, 3>& point) const {
-    const std::size_t b = brick_index(data_, brick);
-    if (data_.slot[b] < 0) return data_.far_value[b];
-    return data_
-        .samples[static_cast<std::size_t>(data_.slot[b]) * SampledDistance::samples_per_brick +
-                 offset(point)];
-  }
-  bool stored(const std::array<int, 3>& brick) const {
-    return data_.slot[brick_index(data_, brick)] >= 0;
-  }
-
-  [[noreturn]] void fail(const Vec3& place, double one, double other) const {
-    std::ostringstream message;
-    message << name_ << ": body not closed: its signed distance jumps from " << one << " to "
-            << other << " m within one spacing (" << data_.spacing << " m) at " << text(place)
-            << "; the surface must enclose the solid without gaps, with distances < 0 inside";
-    throw UserError(message.str());
-  }
-
-  void check_inside(const std::array<int, 3>& brick) {
-    const double allowed = (1.0 + lipschitz_tolerance) * data_.spacing;
-    if (!stored(brick)) {
-      note(value(brick, {}));
-      return;
-    }
-    for_each_point([&](const std::array<int, 3>& point) {
-      const double here = value(brick, point);
-      note(here);
-      for (int d = 0; d < 3; ++d) {
-        std::array<int, 3> next = point;
-        if (++next[d] == points) continue;
-        const double there = value(brick, next);
-        const bool matters =
-            here * there < 0 || std::min(std::abs(here), std::abs(there)) < data_.band;
-        if (matters && std::abs(here - there) > allowed) {
-          fail(position(data_, brick, point), here, there);
-        }
-      }
-    });
-  }
-
-  // The last layer of `brick` is the first of `next`: equal where both are stored, else of one
-  // sign.
-  void check_shared_face(const std::array<int, 3>& brick, const std::array<int, 3>& next, int d) {
-    for_each_point([&](std::array<int, 3> point) {
-      if (point[d] != 0) return;
-      const double there = value(next, point);
-      point[d] = cells;
-      const double here = value(brick, point);
-      const bool same = stored(brick) && stored(next)
-                            ? std::abs(here - there) <= lipschitz_tolerance * data_.spacing
-                            : here * there > 0;
-      if (!same) fail(position(data_, brick, point), here, there);
-    });
-  }
-
-  void note(double phi) {
-    smallest_ = std::min(smallest_, phi);
-    largest_ = std::max(largest_, phi);
-  }
-
-  const BrickSamples& data_;
-  const std::string& name_;
-  double smallest_ = std::numeric_limits<double>::infinity();
-  double largest_ = -std::numeric_limits<double>::infinity();
-};
 
 }  // namespace
 
-SampledDistance sample_shape(const SignedDistance& shape, const SamplingBox& box) {
-  GASGRAIN_ASSERT(box.spacing > 0 && box.band > 0);
+SampledDistance sample_shape(const SignedDistance& shape, const SamplingBox& box,
+                             const SamplingEffort& effort) {
+  GASGRAIN_ASSERT(box.spacing > 0 && box.band > 0 && effort.threads > 0);
   check_box(shape, box);
-  BrickSamples data;
-  data.lower = box.lower;
-  data.spacing = box.spacing;
-  data.band = box.band;
-  data.cut = box.cut;
-  const Vec3 bricks =
-      ((box.upper - box.lower) / (cells * box.spacing) - Vec3::Constant(1e-9)).array().ceil();
-  for (int d = 0; d < 3; ++d) data.bricks[d] = std::max(1, static_cast<int>(bricks[d]));
-  data.slot.assign(static_cast<std::size_t>(data.bricks[0]) * data.bricks[1] * data.bricks[2], -1);
-  data.far_value.assign(data.slot.size(), 0.0);
-  for_each_brick(data, [&](const std::array<int, 3>& brick) {
-    const double bound = far_value(shape, data, brick);
-    if (bound == 0.0) {
-      store_brick(shape, brick, data);
-    } else {
-      data.far_value[brick_index(data, brick)] = bound;
-    }
-  });
-  return SampledDistance(std::move(data));
-}
-
-void check_closed(const SampledDistance& field, const std::string& name) {
-  ClosedCheck check(field.data(), name);
-  check.run();
-  if (check.smallest() >= 0) {
-    throw UserError(name +
-                    ": body not closed: no sample lies inside the solid; the surface is "
-                    "open, or the solid is thinner than the spacing or outside of the box");
-  }
-  if (check.largest() <= 0) {
-    throw UserError(name +
-                    ": no sample lies outside the solid; is the sign of the distance right "
-                    "(> 0 outside), and does the box reach beyond the body?");
-  }
-  if (field.ends_at_box() && !field.data().cut) {
-    throw UserError(name + ": body not closed within its sampled box from " + text(field.lower()) +
-                    " to " + text(field.upper()) +
-                    "; enlarge the box, or say that the body goes "
-                    "on beyond it (cut = true, gasgrain-sdf --allow-cut)");
-  }
+  return SampledDistance(Sampler(shape, box, effort).run());
 }
 
 }  // namespace gasgrain

@@ -29,6 +29,8 @@ class SignedDistance {
   // Below this |distance| the field is resolved; a sampled field stores only a band around the
   // surface and beyond it returns a bound with gradient zero. A grain radius must not exceed it. m.
   virtual double resolved_range() const { return std::numeric_limits<double>::infinity(); }
+  // The distance changes by no more than this times the way. Interpolated fields may exceed 1.
+  virtual double steepest_gradient() const { return 1.0; }
   // What the user should know about how the shape was made, in lines; or empty.
   virtual std::string remarks() const { return {}; }
 };

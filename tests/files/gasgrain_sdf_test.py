@@ -10,6 +10,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 CASE = """
 [grid]
@@ -32,10 +33,10 @@ def number(pattern, text):
     return float(re.search(pattern, text).group(1))
 
 
-def volume_error(case, directory, spacing):
+def volume_error(case, directory, spacing, interpolation):
     """Relative to the exact volume of the ball."""
     result = run(case, "--body", "ball", "--spacing", str(spacing), "-o",
-                 os.path.join(directory, "ball.h5"))
+                 os.path.join(directory, "ball.h5"), "--interpolation", interpolation)
     assert result.returncode == 0, result.stderr
     exact = 4 / 3 * math.pi * 0.004**3
     return abs(number(r"solid volume +(\S+)", result.stdout) - exact) / exact
@@ -53,6 +54,31 @@ def write_box_stl(path, size, defects):
         file.write(b"box".ljust(80) + struct.pack("<I", len(triangles)))
         for t in triangles:
             file.write(struct.pack("<12fH", 0, 0, 0, *(x for n in t for x in corners[n]), 0))
+
+
+def check_picture(path):
+    """The slice through the middle of the ball: solid in the middle, flow domain in the corner."""
+    with open(path, "rb") as file:
+        data = file.read()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, chunks = 8, {}
+    while at < len(data):
+        size, = struct.unpack(">I", data[at:at + 4])
+        name, content = data[at + 4:at + 8], data[at + 8:at + 8 + size]
+        assert struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0] == zlib.crc32(name + content)
+        chunks[name] = content
+        at += 12 + size
+    columns, rows = struct.unpack(">II", chunks[b"IHDR"][:8])
+    lines = zlib.decompress(chunks[b"IDAT"])
+    assert len(lines) == rows * (3 * columns + 1)
+
+    def pixel(x, y):
+        start = int(y * rows) * (3 * columns + 1) + 1 + 3 * int(x * columns)
+        return tuple(lines[start:start + 3])
+
+    ball = pixel((0.02 + 2e-3) / 0.054, 1 - (0.02 + 2e-3) / 0.044)
+    assert ball[0] < 180 and ball[0] > ball[2], ball  # a warm grey
+    assert pixel(0.99, 0.01) == (255, 255, 255)
 
 
 def check_stl(directory, fails):
@@ -93,12 +119,18 @@ def main():
         with open(case, "w") as file:
             file.write(CASE)
 
-        errors = [volume_error(case, directory, h) for h in (1e-3, 5e-4, 2.5e-4)]
-        orders = [math.log2(a / b) for a, b in zip(errors, errors[1:])]
-        print("volume errors", errors, "orders", orders)
-        assert min(orders) > 1.8
+        last = []
+        for interpolation in ("linear", "quadratic"):
+            errors = [volume_error(case, directory, h, interpolation) for h in (1e-3, 5e-4, 2.5e-4)]
+            orders = [math.log2(a / b) for a, b in zip(errors, errors[1:])]
+            print(interpolation, "volume errors", errors, "orders", orders)
+            assert min(orders) > 1.7
+            last.append(errors[-1])
+        assert last[1] < 0.5 * last[0]
 
-        inspected = run("--inspect", os.path.join(directory, "ball.h5"))
+        picture = os.path.join(directory, "slice.png")
+        inspected = run("--inspect", os.path.join(directory, "ball.h5"), "--picture", picture)
+        check_picture(picture)
         assert inspected.returncode == 0 and "closed         yes" in inspected.stdout
         assert number(r"spacing +(\S+)", inspected.stdout) == 2.5e-4
 
@@ -109,7 +141,8 @@ def main():
                 "--lower", "0.01", "0", "0.01", "--upper", "0.03", "0.01", "0.03",
                 "-o", os.path.join(directory, "copy.h5")]
         assert "give a narrower band" in run(*copy).stderr
-        copied = run(*copy, "--band", "2e-3")
+        assert "four spacings more" in run(*copy, "--band", "2e-3").stderr
+        copied = run(*copy, "--band", "2e-3", "--interpolation", "linear")
         assert copied.returncode == 0, copied.stderr
 
         def fails(text, *arguments):

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <random>
 
 #include "coupling/files/hdf5_file.hpp"
 #include "coupling/shared/boolean_shapes.hpp"
@@ -28,10 +30,17 @@ class SdfFile : public testing::Test {
 
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
 
-  static SampledDistance ball() {
+  static SampledDistance ball(Interpolation interpolation = Interpolation::linear,
+                              SampleStorage storage = SampleStorage::plain) {
     const Shape shape = make_difference(make_shape(Sphere{Vec3(0.1, 0.2, 0.3), 1.0 / 3}),
                                         make_shape(Sphere{Vec3(0.2, 0.3, 0.4), 0.1}));
-    return sample_shape(*shape, {Vec3(-0.7, -0.6, -0.5), Vec3(0.9, 1.3, 1.0), 0.03, 0.1, false});
+    return sample_shape(*shape, {.lower = Vec3(-0.7, -0.6, -0.5),
+                                 .upper = Vec3(0.9, 1.3, 1.0),
+                                 .spacing = 0.03,
+                                 .band = 0.1,
+                                 .cut = false,
+                                 .interpolation = interpolation,
+                                 .storage = storage});
   }
 
  private:
@@ -44,23 +53,55 @@ void expect_same_bits(const std::vector<T>& a, const std::vector<T>& b) {
   EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(T)), 0);
 }
 
-TEST_F(SdfFile, ReadsBackBitForBit) {
-  const SampledDistance written = ball();
-  write_sdf(path("ball.h5"), written);
-  const SampledDistance read = read_sdf(path("ball.h5"));
+void expect_same(const SampledDistance& written, const SampledDistance& read) {
   const BrickSamples &a = written.data(), &b = read.data();
   EXPECT_NE(a.bricks[0], a.bricks[1]);  // so that a mixed-up order shows
   EXPECT_EQ(a.lower, b.lower);
   EXPECT_EQ(a.spacing, b.spacing);
   EXPECT_EQ(a.band, b.band);
   EXPECT_EQ(a.cut, b.cut);
+  EXPECT_EQ(a.interpolation, b.interpolation);
+  EXPECT_EQ(a.quantum, b.quantum);
   EXPECT_EQ(a.bricks, b.bricks);
+  expect_same_bits(a.table, b.table);
+  expect_same_bits(a.block_value, b.block_value);
   expect_same_bits(a.slot, b.slot);
   expect_same_bits(a.far_value, b.far_value);
   expect_same_bits(a.samples, b.samples);
+  expect_same_bits(a.compact_samples, b.compact_samples);
   for (const double x : {-3.0, -0.2, 0.0, 0.11, 0.4, 0.8, 5.0}) {
     EXPECT_EQ(written.sample(Vec3(x, 0.2, 0.3)).gradient, read.sample(Vec3(x, 0.2, 0.3)).gradient);
   }
+}
+
+TEST_F(SdfFile, ReadsBackBitForBit) {
+  for (const Interpolation interpolation : {Interpolation::linear, Interpolation::quadratic}) {
+    for (const SampleStorage storage : {SampleStorage::plain, SampleStorage::compact}) {
+      const SampledDistance written = ball(interpolation, storage);
+      write_sdf(path("ball.h5"), written);
+      expect_same(written, read_sdf(path("ball.h5")));
+    }
+  }
+}
+
+// Any byte changed: read, or refused with a UserError.
+TEST_F(SdfFile, SurvivesDamage) {
+  write_sdf(path("ball.h5"), ball());
+  std::ifstream whole(path("ball.h5"), std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(whole)), {});
+  std::mt19937 random{11};
+  int refused = 0;
+  for (int n = 0; n < 300; ++n) {
+    std::string damaged = bytes;
+    for (int k = 0; k < 4; ++k) damaged[random() % 8000] = static_cast<char>(random());
+    std::ofstream(path("damaged.h5"), std::ios::binary) << damaged;
+    try {
+      read_sdf(path("damaged.h5"));
+    } catch (const UserError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100);
 }
 
 TEST_F(SdfFile, LeavesNoUnfinishedFile) {
@@ -90,10 +131,9 @@ TEST_F(SdfFile, RefusesOtherFiles) {
   expect_contains(user_error([&] { read_sdf(path("other.h5")); }), "no SDF file of gasgrain");
   Hdf5File newer = Hdf5File::create(path("newer.h5"));
   newer.write_attribute("format", std::string("gasgrain signed distance"));
-  newer.write_attribute<std::int64_t>("version", {2});
-  newer.write_attribute<std::int64_t>("brick_cells", {8});
+  newer.write_attribute<std::int64_t>("version", {3});
   newer.close();
-  expect_contains(user_error([&] { read_sdf(path("newer.h5")); }), "has version 2");
+  expect_contains(user_error([&] { read_sdf(path("newer.h5")); }), "has version 3");
 }
 
 TEST_F(SdfFile, RefusesATruncatedFile) {

@@ -20,32 +20,71 @@ const Shape tube =
 const Shape vessel =
     make_complement(make_shape(Box{.center = Vec3::Zero(), .half_size = Vec3(0.7, 0.6, 0.5)}));
 
-SampledDistance sampled(const Shape& shape, double spacing, double band) {
+SampledDistance sampled(const Shape& shape, double spacing, double band,
+                        Interpolation interpolation = Interpolation::linear,
+                        SampleStorage storage = SampleStorage::plain) {
   return sample_shape(*shape, {.lower = Vec3(-1, -1, -1),
                                .upper = Vec3(1, 1, 1),
                                .spacing = spacing,
                                .band = band,
-                               .cut = true});
+                               .cut = true,
+                               .interpolation = interpolation,
+                               .storage = storage});
 }
 
-TEST(SampledDistance, ReproducesTheSamplesAndIsLinearInBetween) {
+constexpr Interpolation both_kinds[] = {Interpolation::linear, Interpolation::quadratic};
+
+// Samples are rounded to 24 bits: 3e-8 of values up to 0.6, over a spacing of 0.05.
+TEST(SampledDistance, IsExactForAPlane) {
   const Shape plane = make_shape(Plane{Vec3(0.1, 0, 0), Vec3(0.36, 0.48, 0.8)});
-  const SampledDistance field = sampled(plane, 0.05, 0.3);
-  RandomPoints points(Vec3(-1, -1, -1), Vec3(1, 1, 1));
-  int in_band = 0;
-  for (int n = 0; n < 2000; ++n) {
-    const Vec3 x = points.next();
-    if (std::abs(plane->distance(x)) > 0.3) continue;
-    ++in_band;
-    EXPECT_NEAR(field.distance(x), plane->distance(x), 1e-14);
-    EXPECT_LT((field.sample(x).gradient - plane->sample(x).gradient).norm(), 1e-12);
+  for (const Interpolation interpolation : both_kinds) {
+    const SampledDistance field = sampled(plane, 0.05, 0.3, interpolation);
+    RandomPoints points(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+    int in_band = 0;
+    for (int n = 0; n < 2000; ++n) {
+      const Vec3 x = points.next();
+      if (std::abs(plane->distance(x)) > 0.3) continue;
+      ++in_band;
+      EXPECT_NEAR(field.distance(x), plane->distance(x), 6e-8);
+      EXPECT_LT((field.sample(x).gradient - plane->sample(x).gradient).norm(), 4e-6);
+    }
+    EXPECT_GT(in_band, 300);
   }
-  EXPECT_GT(in_band, 300);
+}
+
+TEST(SampledDistance, CompactSamplesAreRoundedToTheirQuantum) {
+  const SampledDistance plain = sampled(ball, 0.025, 0.1, Interpolation::quadratic);
+  const SampledDistance compact =
+      sampled(ball, 0.025, 0.1, Interpolation::quadratic, SampleStorage::compact);
+  const double quantum = compact.data().quantum;
+  EXPECT_NEAR(quantum, 0.35 / 32767, 1e-12);
+  EXPECT_LT(compact.memory(), 0.6 * plain.memory());
+  RandomPoints points(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  for (int n = 0; n < 5000; ++n) {
+    const Vec3 x = points.next();
+    EXPECT_NEAR(compact.distance(x), plain.distance(x), 0.51 * quantum);
+  }
+}
+
+TEST(SampledDistance, QuadraticGradientIsContinuous) {
+  const auto largest_jump = [](Interpolation interpolation) {
+    const SampledDistance field = sampled(ball, 0.05, 0.3, interpolation);
+    double jump = 0.0;
+    for (int n = 0; n < 20000; ++n) {  // along a line close to the surface, far finer than cells
+      const Vec3 x = Vec3(0.55, -0.4 + 0.8 * n / 20000, 0.05);
+      const Vec3 y = x + Vec3(0, 0.8 / 20000, 0);
+      jump = std::max(jump, (field.sample(x).gradient - field.sample(y).gradient).norm());
+    }
+    return jump;
+  };
+  EXPECT_GT(largest_jump(Interpolation::linear), 0.02);
+  EXPECT_LT(largest_jump(Interpolation::quadratic), 2e-4);  // curvature 2 over 4e-5
 }
 
 TEST(SampledDistance, GradientIsTheDerivativeOfTheInterpolant) {
-  const SampledDistance field = sampled(ball, 0.05, 0.1);
-  expect_exact_gradient(field, RandomPoints(Vec3(-0.99, -0.99, -0.99), Vec3(0.99, 0.99, 0.99)));
+  for (const Interpolation interpolation : both_kinds)
+    expect_exact_gradient(sampled(ball, 0.05, 0.1, interpolation),
+                          RandomPoints(Vec3(-0.99, -0.99, -0.99), Vec3(0.99, 0.99, 0.99)));
 }
 
 TEST(SampledDistance, GradientIsTheDerivativeOutsideOfTheBoxToo) {
@@ -55,8 +94,8 @@ TEST(SampledDistance, GradientIsTheDerivativeOutsideOfTheBoxToo) {
 }
 
 // Largest error within half the band, for the order of the interpolation.
-double largest_error(double spacing) {
-  const SampledDistance field = sampled(ball, spacing, 0.3);
+double largest_error(double spacing, Interpolation interpolation) {
+  const SampledDistance field = sampled(ball, spacing, 0.3, interpolation);
   RandomPoints points(Vec3(-1, -1, -1), Vec3(1, 1, 1));
   double largest = 0.0;
   for (int n = 0; n < 20000; ++n) {
@@ -67,18 +106,29 @@ double largest_error(double spacing) {
   return largest;
 }
 
-TEST(SampledDistance, ErrorFallsWithTheSquareOfTheSpacing) {
-  const double coarse = largest_error(0.08), middle = largest_error(0.04),
-               fine = largest_error(0.02);
+TEST(SampledDistance, LinearErrorFallsWithTheSquareOfTheSpacing) {
+  const double coarse = largest_error(0.08, Interpolation::linear),
+               middle = largest_error(0.04, Interpolation::linear),
+               fine = largest_error(0.02, Interpolation::linear);
   EXPECT_GT(std::log2(coarse / middle), 1.8);
   EXPECT_GT(std::log2(middle / fine), 1.9);
   EXPECT_LT(fine, 0.02 * 0.02 / (4 * 0.35) * 1.5);  // h^2/8 times the two curvatures at r = 0.35
 }
 
+TEST(SampledDistance, QuadraticErrorFallsWithTheCube) {
+  const double coarse = largest_error(0.08, Interpolation::quadratic),
+               middle = largest_error(0.04, Interpolation::quadratic),
+               fine = largest_error(0.02, Interpolation::quadratic);
+  EXPECT_GT(std::log2(coarse / middle), 2.7);
+  EXPECT_GT(std::log2(middle / fine), 2.7);
+  EXPECT_LT(fine, 0.05 * largest_error(0.02, Interpolation::linear));
+}
+
 TEST(SampledDistance, AwayFromTheBandHasTheRightSignAndALowerBound) {
   for (const Shape& shape : {ball, tube, vessel}) {
     const SampledDistance field = sampled(shape, 0.025, 0.06);
-    EXPECT_LT(field.stored_bricks(), field.data().slot.size());
+    EXPECT_LT(static_cast<int>(field.data().stored_bricks()),
+              field.data().bricks[0] * field.data().bricks[1] * field.data().bricks[2] / 2);
     RandomPoints points(Vec3(-1, -1, -1), Vec3(1, 1, 1));
     for (int n = 0; n < 20000; ++n) {
       const Vec3 x = points.next();
@@ -93,12 +143,14 @@ TEST(SampledDistance, AwayFromTheBandHasTheRightSignAndALowerBound) {
 }
 
 TEST(SampledDistance, StoresEveryBrickThatTouchesTheBand) {
-  const SampledDistance field = sampled(ball, 0.025, 0.06);
-  RandomPoints points(Vec3(-1, -1, -1), Vec3(1, 1, 1));
-  for (int n = 0; n < 20000; ++n) {
-    const Vec3 x = points.next();
-    if (std::abs(ball->distance(x)) > field.resolved_range()) continue;
-    EXPECT_GT(field.sample(x).gradient.norm(), 0.9);
+  for (const Interpolation interpolation : both_kinds) {
+    const SampledDistance field = sampled(ball, 0.025, 0.06, interpolation);
+    RandomPoints points(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+    for (int n = 0; n < 20000; ++n) {
+      const Vec3 x = points.next();
+      if (std::abs(ball->distance(x)) > field.resolved_range()) continue;
+      EXPECT_GT(field.sample(x).gradient.norm(), 0.9);
+    }
   }
 }
 
@@ -162,6 +214,26 @@ TEST(SampledDistance, ElasticForceDoesNoWorkOnAClosedPath) {
   EXPECT_LT(std::abs(work), 1e-5 * magnitude);
 }
 
+// A spherical shell of twice the size has four times the area; the box eight times the volume.
+TEST(SampledDistance, MemoryFollowsTheArea) {
+  const auto memory = [](double radius) {
+    const Shape shell = make_difference(make_shape(Sphere{Vec3::Zero(), radius}),
+                                        make_shape(Sphere{Vec3::Zero(), radius - 0.005}));
+    const SampledDistance field = sample_shape(*shell, {.lower = Vec3::Constant(-radius - 0.01),
+                                                        .upper = Vec3::Constant(radius + 0.01),
+                                                        .spacing = 1e-3,
+                                                        .band = 2e-3,
+                                                        .cut = false,
+                                                        .interpolation = Interpolation::linear,
+                                                        .storage = SampleStorage::compact});
+    return static_cast<double>(field.memory());
+  };
+  const double small = memory(0.04), large = memory(0.08);
+  EXPECT_LT(large / small, 4.6);
+  // of the shell of 5 m across, by its area
+  EXPECT_LT(large * std::pow(2.5 / 0.08, 2), 4.0 * 1024 * 1024 * 1024);
+}
+
 TEST(SampledDistance, RejectsDataThatDoNotFitEachOther) {
   BrickSamples good = sampled(ball, 0.1, 0.2).data();
   EXPECT_NO_THROW(SampledDistance{good});
@@ -175,7 +247,10 @@ TEST(SampledDistance, RejectsDataThatDoNotFitEachOther) {
   bad.samples[17] = std::nan("");
   EXPECT_THROW(SampledDistance{bad}, UserError);
   bad = good;
-  bad.slot[0] = 1 << 20;
+  bad.table[0] = 1 << 20;
+  EXPECT_THROW(SampledDistance{bad}, UserError);
+  bad = good;
+  *std::max_element(bad.slot.begin(), bad.slot.end()) += 1;
   EXPECT_THROW(SampledDistance{bad}, UserError);
   bad = good;
   bad.spacing = 0;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -36,14 +37,17 @@ template <class Change>
 SampledDistance changed(const SampledDistance& field, const Change& change) {
   BrickSamples data = field.data();
   constexpr int n = SampledDistance::brick_points;
-  for (int b = 0; b < static_cast<int>(data.slot.size()); ++b) {
-    if (data.slot[b] < 0) continue;
-    const int bx = b % data.bricks[0], by = b / data.bricks[0] % data.bricks[1],
-              bz = b / data.bricks[0] / data.bricks[1];
-    for (int s = 0; s < SampledDistance::samples_per_brick; ++s) {
-      const Vec3 steps(8 * bx + s % n, 8 * by + s / n % n, 8 * bz + s / n / n);
-      double& phi = data.samples[data.slot[b] * SampledDistance::samples_per_brick + s];
-      phi = change(Vec3(data.lower + data.spacing * steps), phi);
+  for (int k = 0; k < data.bricks[2]; ++k) {
+    for (int j = 0; j < data.bricks[1]; ++j) {
+      for (int i = 0; i < data.bricks[0]; ++i) {
+        const std::int32_t slot = field.brick({i, j, k}).slot;
+        if (slot < 0) continue;
+        for (int s = 0; s < SampledDistance::samples_per_brick; ++s) {
+          float& phi = data.samples[slot * SampledDistance::samples_per_brick + s];
+          phi = static_cast<float>(
+              change(field.position({i, j, k}, {s % n, s / n % n, s / n / n}), phi));
+        }
+      }
     }
   }
   return SampledDistance(data);
@@ -54,6 +58,34 @@ TEST(Sampling, AcceptsClosedBodies) {
   EXPECT_EQ(complaint(sampled(make_complement(ball))), "");
   const Shape box = make_shape(Box{.center = Vec3::Zero(), .half_size = Vec3(0.7, 0.5, 0.4)});
   EXPECT_EQ(complaint(sampled(make_difference(box, ball))), "");
+}
+
+TEST(Sampling, AcceptsKinksOfTheQuadraticInterpolation) {
+  const Shape box = make_shape(Box{.center = Vec3::Zero(), .half_size = Vec3(0.7, 0.5, 0.4)});
+  for (const Shape& shape : {make_difference(box, ball), make_complement(box), box}) {
+    const SampledDistance field = sample_shape(*shape, {.lower = Vec3(-1, -1, -1),
+                                                        .upper = Vec3(1, 1, 1),
+                                                        .spacing = 0.05,
+                                                        .band = 0.2,
+                                                        .cut = false,
+                                                        .interpolation = Interpolation::quadratic});
+    EXPECT_EQ(complaint(field), "");
+  }
+}
+
+TEST(Sampling, DoesNotDependOnTheNumberOfThreads) {
+  const SamplingBox box{.lower = Vec3(-1, -1, -1),
+                        .upper = Vec3(1, 1, 1),
+                        .spacing = 0.02,
+                        .band = 0.1,
+                        .cut = false};
+  double told = 0.0;
+  const SampledDistance alone = sample_shape(*ball, box);
+  const SampledDistance shared = sample_shape(
+      *ball, box, {.threads = 3, .progress = [&](double share) { told = std::max(told, share); }});
+  EXPECT_EQ(alone.data().samples, shared.data().samples);
+  EXPECT_EQ(alone.data().slot, shared.data().slot);
+  EXPECT_NEAR(told, 1.0, 1e-12);
 }
 
 TEST(Sampling, NamesThePlaceWhereASurfaceIsOpen) {
@@ -72,12 +104,15 @@ TEST(Sampling, RejectsAnUnsignedDistance) {
 }
 
 TEST(Sampling, RejectsAWrongSignOfOneBrick) {
-  BrickSamples data = sampled(ball).data();
-  for (std::size_t b = 0; b < data.slot.size(); ++b) {
-    if (data.slot[b] >= 0) continue;
-    data.far_value[b] = -data.far_value[b];
-    break;
-  }
+  BrickSamples data = sample_shape(*ball, {.lower = Vec3(-1, -1, -1),
+                                           .upper = Vec3(1, 1, 1),
+                                           .spacing = 0.02,
+                                           .band = 0.1,
+                                           .cut = false})
+                          .data();
+  const auto inside = std::min_element(data.far_value.begin(), data.far_value.end());
+  ASSERT_LT(*inside, 0);
+  *inside = -*inside;
   EXPECT_NE(complaint(SampledDistance(data)).find("jumps from"), std::string::npos);
 }
 
@@ -102,15 +137,15 @@ TEST(Sampling, ABodyOutsideOfTheBoxIsAnError) {
 }
 
 TEST(Sampling, RoundsTheBoxUpToWholeBricks) {
-  const SampledDistance field = sampled(ball);  // 2 / (8 * 0.05) = 5 bricks
-  EXPECT_EQ(field.data().bricks, (std::array<int, 3>{5, 5, 5}));
+  const SampledDistance field = sampled(ball);  // (2 / 0.05 + 3) / 4 bricks
+  EXPECT_EQ(field.data().bricks, (Index3{11, 11, 11}));
   const SampledDistance odd = sample_shape(*ball, {.lower = Vec3(-1, -1, -1),
-                                                   .upper = Vec3(1, 1.01, 1),
+                                                   .upper = Vec3(1, 1.06, 1),
                                                    .spacing = 0.05,
                                                    .band = 0.2,
                                                    .cut = false});
-  EXPECT_EQ(odd.data().bricks, (std::array<int, 3>{5, 6, 5}));
-  EXPECT_GE(odd.upper()[1], 1.01);
+  EXPECT_EQ(odd.data().bricks, (Index3{11, 12, 11}));
+  EXPECT_GE(odd.upper()[1], 1.06);
 }
 
 TEST(Sampling, ASampledFieldCanBeSampledAgainWithinItsBand) {
@@ -132,7 +167,7 @@ TEST(Sampling, RejectsEmptyAndOversizedBoxes) {
       .lower = Vec3::Zero(), .upper = Vec3(1, 0, 1), .spacing = 0.1, .band = 1, .cut = false};
   EXPECT_THROW(sample_shape(*ball, box), UserError);
   box.upper = Vec3(1, 1, 1);
-  box.spacing = 1e-5;
+  box.spacing = 1e-6;
   EXPECT_THROW(sample_shape(*ball, box), UserError);
 }
 
