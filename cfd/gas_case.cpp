@@ -44,14 +44,32 @@ Convection read_convection(const ConfigTable& table) {
                              : Convection::van_leer;
 }
 
+PressureMethod read_pressure_solver(const ConfigTable& table) {
+  const std::string name = table.choice_or(
+      "pressure_solver", "multigrid",
+      {"multigrid", "hypre-pfmg", "hypre-pfmg-rap", "hypre-smg", "hypre-boomeramg"});
+  return name == "hypre-pfmg"        ? PressureMethod::hypre_pfmg
+         : name == "hypre-pfmg-rap"  ? PressureMethod::hypre_pfmg_rap
+         : name == "hypre-smg"       ? PressureMethod::hypre_smg
+         : name == "hypre-boomeramg" ? PressureMethod::hypre_boomeramg
+                                     : PressureMethod::multigrid;
+}
+
+PressureFallback read_pressure_fallback(const ConfigTable& table) {
+  const std::string name = table.choice_or("pressure_fallback", "hypre-boomeramg",
+                                           {"hypre-boomeramg", "hypre-pfmg", "none"});
+  return name == "none"         ? PressureFallback::none
+         : name == "hypre-pfmg" ? PressureFallback::hypre_pfmg
+                                : PressureFallback::hypre_boomeramg;
+}
+
 Numerics read_numerics(const ConfigTable& table) {
-  expect_only(table, {"convection", "pressure_solver", "pressure_tolerance", "pressure_iterations",
-                      "courant_number", "largest_step", "ranks"});
+  expect_only(table, {"convection", "pressure_solver", "pressure_fallback", "pressure_tolerance",
+                      "pressure_iterations", "courant_number", "largest_step", "ranks"});
   Numerics n;
   n.convection = read_convection(table);
-  const std::string solver =
-      table.choice_or("pressure_solver", "multigrid", {"multigrid", "hypre"});
-  n.pressure_solver = solver == "hypre" ? PressureMethod::hypre : PressureMethod::multigrid;
+  n.pressure_solver = read_pressure_solver(table);
+  n.pressure_fallback = read_pressure_fallback(table);
   n.pressure_tolerance =
       table.number_or("pressure_tolerance", n.pressure_tolerance, {.lower = 1e-14, .upper = 0.1});
   n.pressure_iterations = static_cast<int>(table.integer_or(

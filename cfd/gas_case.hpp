@@ -7,6 +7,7 @@
 
 #include "cfd/boundary.hpp"
 #include "cfd/grid.hpp"
+#include "cfd/pressure_method.hpp"
 #include "coupling/shared/body.hpp"
 #include "coupling/shared/config_table.hpp"
 
@@ -20,13 +21,12 @@ struct GasProperties {
 
 enum class Convection { none, central, van_leer };
 
-enum class PressureMethod { hypre, multigrid };
-
 struct Numerics {
   Convection convection = Convection::van_leer;
   PressureMethod pressure_solver = PressureMethod::multigrid;
+  PressureFallback pressure_fallback = PressureFallback::hypre_boomeramg;
   double pressure_tolerance = 1e-6;  // residual over right-hand side, 2-norm
-  int pressure_iterations = 200;     // largest number of CG iterations
+  int pressure_iterations = 200;     // largest number of CG iterations before the fallback
   double courant_number = 0.25;      // largest |u| dt / dx
   double largest_step = std::numeric_limits<double>::infinity();  // s
   Index3 ranks{0, 0, 0};  // blocks per direction; 0 = choose

@@ -72,11 +72,6 @@ struct GasDomain {
   bool is_periodic(int direction) const { return sides.is_periodic(direction); }
 };
 
-// Half-open box of local indices.
-struct IndexBox {
-  Index3 begin, end;
-};
-
 // Owned faces of a direction that are not on a side of the grid.
 IndexBox inner_faces(const GasDomain& domain, int direction);
 // Faces (or, with a layer of cells, cells) of this block in the plane `index` of a direction.
@@ -113,18 +108,6 @@ void for_each_outlet_face(const GasDomain& domain, int direction, int side, Visi
                      [&](std::ptrdiff_t cell, std::ptrdiff_t face, const SideCondition& condition) {
                        if (condition.type == BoundaryType::outlet) visit(cell, face, condition);
                      });
-}
-
-// visit(first storage index, length) for every row of a box along x.
-template <class Visit>
-void for_each_row(const IndexBox& box, const Field& like, Visit&& visit) {
-  const int length = box.end[0] - box.begin[0];
-  if (length <= 0) return;
-  for (int k = box.begin[2]; k < box.end[2]; ++k) {
-    for (int j = box.begin[1]; j < box.end[1]; ++j) {
-      visit(like.index(box.begin[0], j, k), length);
-    }
-  }
 }
 
 // All owned faces of a direction as a box.

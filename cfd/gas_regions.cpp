@@ -183,16 +183,40 @@ GasRegions find_gas_regions(const Decomposition& decomposition, const VectorFiel
   return FloodFill(decomposition, joined, outlet).regions();
 }
 
-std::vector<double> sum_per_region(const Decomposition& decomposition, const GasRegions& regions,
-                                   const Field& values) {
-  std::vector<double> sums(regions.regions.size(), 0.0);
+void sum_per_region(std::vector<double>& sums, const Decomposition& decomposition,
+                    const GasRegions& regions, const Field& values) {
+  sums.assign(regions.regions.size(), 0.0);
   std::size_t n = 0;
   for_each_cell(values.size(), [&](int i, int j, int k) {
     const int region = regions.region_of_cell[n++];
     if (region != GasRegions::none) sums[region] += values(i, j, k);
   });
   sum_over_ranks(decomposition, sums);
+}
+
+std::vector<double> sum_per_region(const Decomposition& decomposition, const GasRegions& regions,
+                                   const Field& values) {
+  std::vector<double> sums;
+  sum_per_region(sums, decomposition, regions, values);
   return sums;
+}
+
+void subtract_per_region(Field& values, const GasRegions& regions,
+                         const std::vector<double>& amounts) {
+  std::size_t n = 0;
+  for_each_cell(values.size(), [&](int i, int j, int k) {
+    const int region = regions.region_of_cell[n++];
+    if (region != GasRegions::none) values(i, j, k) -= amounts[region];
+  });
+}
+
+void means_of_singular_regions(std::vector<double>& means, const Decomposition& decomposition,
+                               const GasRegions& regions, const Field& values) {
+  sum_per_region(means, decomposition, regions, values);
+  for (std::size_t r = 0; r < means.size(); ++r) {
+    const GasRegion& region = regions.regions[r];
+    means[r] = region.has_outlet ? 0.0 : means[r] / region.cells;
+  }
 }
 
 }  // namespace gasgrain::cfd

@@ -28,8 +28,20 @@ struct GasRegions {
 GasRegions find_gas_regions(const Decomposition& decomposition, const VectorField& joined,
                             const Field& outlet);
 
-// Sum of `values` (owned cells) over each region, all ranks.
+// sums[r] = sum of `values` (owned cells) over region r, all ranks. Collective.
+void sum_per_region(std::vector<double>& sums, const Decomposition& decomposition,
+                    const GasRegions& regions, const Field& values);
+
 std::vector<double> sum_per_region(const Decomposition& decomposition, const GasRegions& regions,
                                    const Field& values);
+
+// values -= amounts[r] in the owned cells of region r.
+void subtract_per_region(Field& values, const GasRegions& regions,
+                         const std::vector<double>& amounts);
+
+// Sums per region over all ranks divided by the number of cells in regions without outlet, 0 in the
+// others: what is to be subtracted to leave no mean there.
+void means_of_singular_regions(std::vector<double>& means, const Decomposition& decomposition,
+                               const GasRegions& regions, const Field& values);
 
 }  // namespace gasgrain::cfd

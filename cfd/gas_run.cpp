@@ -62,6 +62,7 @@ double GasRun::next_step() const {
 void GasRun::record(const StepReport& report, double dt) {
   ++steps_;
   iterations_ += report.pressure.iterations;
+  fallbacks_ += report.pressure.fallbacks;
   largest_divergence_ = std::max(largest_divergence_, report.divergence);
   largest_removed_mean_ = std::max(largest_removed_mean_, report.removed_mean);
   if (case_.run.step > 0.0 && dt < case_.run.step && solver_.time() < end_time_) ++shortened_;
@@ -127,6 +128,9 @@ void GasRun::print_summary(const StepReport& report) const {
   std::printf("  largest removed mean  %12.5e\n", largest_removed_mean_);
   std::printf("  steps                 %ld, %.1f pressure iterations each\n", steps_,
               static_cast<double>(iterations_) / static_cast<double>(std::max(steps_, 1L)));
+  if (fallbacks_ > 0) {
+    std::printf("  pressure fallback     took over in %ld steps\n", fallbacks_);
+  }
   if (shortened_ > 0) {
     std::printf("  %ld steps were shorter than run.step to stay stable\n", shortened_);
   }

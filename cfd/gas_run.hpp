@@ -38,7 +38,7 @@ class GasRun {
   double end_time_;
   double next_frame_ = 0.0, next_progress_ = 0.0;
   double started_at_ = 0.0;
-  long steps_ = 0, iterations_ = 0, shortened_ = 0;
+  long steps_ = 0, iterations_ = 0, shortened_ = 0, fallbacks_ = 0;
   double largest_divergence_ = 0.0, largest_removed_mean_ = 0.0;
 };
 

@@ -43,15 +43,24 @@ std::size_t count(const Slab& s) {
          (s.end[2] - s.begin[2]);
 }
 
-std::vector<double> pack(std::span<Field* const> fields, const Slab& s) {
-  std::vector<double> values(fields.size() * count(s));
+// Buffers grow to what the largest message needs and stay: no allocation from step to step.
+struct Buffers {
+  std::vector<double> out, in;
+};
+
+Buffers& buffers() {
+  static thread_local Buffers both;
+  return both;
+}
+
+void pack(std::vector<double>& values, std::span<Field* const> fields, const Slab& s) {
+  values.resize(fields.size() * count(s));
   double* next = values.data();
   for (Field* field : fields) {
     for_each_row(*field, s, [&](std::ptrdiff_t row, int length) {
       next = std::copy_n(field->data() + row, length, next);
     });
   }
-  return values;
 }
 
 void unpack(std::span<Field* const> fields, const Slab& s, const std::vector<double>& values) {
@@ -76,20 +85,20 @@ bool has_neighbours(const Decomposition& decomposition, int direction) {
   return !decomposition.at_boundary(direction, 0) || !decomposition.at_boundary(direction, 1);
 }
 
-// Sends to the neighbour on `to_side`, receives the message of the same kind from the other side.
-// Blocks of one row of ranks have the same cross-section, so both messages are equally long.
-// Returns an empty vector when there is nobody to receive from.
-std::vector<double> shift(const Decomposition& decomposition, int direction, int to_side,
-                          std::vector<double> values) {
+// Sends `out` to the neighbour on `to_side`, receives the message of the same kind from the other
+// side. Blocks of one row of ranks have the same cross-section, so both messages are equally long.
+// Returns what arrived; empty when there is nobody to receive from.
+const std::vector<double>& shift(const Decomposition& decomposition, int direction, int to_side,
+                                 Buffers& both) {
   const int to = decomposition.neighbour(direction, to_side);
   const int from = decomposition.neighbour(direction, 1 - to_side);
-  if (to == decomposition.rank() && from == to) return values;
-  std::vector<double> received(from == MPI_PROC_NULL ? 0 : values.size());
+  if (to == decomposition.rank() && from == to) return both.out;
+  both.in.resize(from == MPI_PROC_NULL ? 0 : both.out.size());
   const int tag = 2 * direction + to_side;
-  MPI_Sendrecv(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, to, tag, received.data(),
-               static_cast<int>(received.size()), MPI_DOUBLE, from, tag,
+  MPI_Sendrecv(both.out.data(), static_cast<int>(both.out.size()), MPI_DOUBLE, to, tag,
+               both.in.data(), static_cast<int>(both.in.size()), MPI_DOUBLE, from, tag,
                decomposition.communicator(), MPI_STATUS_IGNORE);
-  return received;
+  return both.in;
 }
 
 // Copies layers [from, to) counted away from the block face into the ghosts of the neighbours.
@@ -102,7 +111,9 @@ void copy_layers(const Decomposition& decomposition, std::span<Field* const> fie
       side == 0 ? slab(size, direction, from, to) : slab(size, direction, n - to, n - from);
   const Slab ghosts =
       side == 0 ? slab(size, direction, n + from, n + to) : slab(size, direction, -to, -from);
-  const std::vector<double> received = shift(decomposition, direction, side, pack(fields, source));
+  Buffers& both = buffers();
+  pack(both.out, fields, source);
+  const std::vector<double>& received = shift(decomposition, direction, side, both);
   if (!received.empty()) unpack(fields, ghosts, received);
 }
 
@@ -110,19 +121,6 @@ void copy_layers(const Decomposition& decomposition, std::span<Field* const> fie
 int layers_at_once(const Decomposition& decomposition, int direction, int layers) {
   const int thinnest = decomposition.grid().cells[direction] / decomposition.ranks()[direction];
   return thinnest >= layers ? layers : 1;
-}
-
-void fill(const Decomposition& decomposition, std::span<Field* const> fields) {
-  for (int d = 0; d < 3; ++d) {
-    if (!has_neighbours(decomposition, d)) continue;
-    for (int side = 0; side < 2; ++side) {
-      const int layers = side == 0 ? halo + 1 : halo;
-      const int stride = layers_at_once(decomposition, d, layers);
-      for (int layer = 0; layer < layers; layer += stride) {
-        copy_layers(decomposition, fields, d, side, layer, layer + stride);
-      }
-    }
-  }
 }
 
 // Transpose of copy_layers for one layer or more of a cell field.
@@ -135,7 +133,9 @@ void add_layers(const Decomposition& decomposition, Field& field, int direction,
   const Slab owner =
       side == 0 ? slab(size, direction, from, to) : slab(size, direction, n - to, n - from);
   Field* const one[] = {&field};
-  const std::vector<double> received = shift(decomposition, direction, 1 - side, pack(one, ghosts));
+  Buffers& both = buffers();
+  pack(both.out, one, ghosts);
+  const std::vector<double>& received = shift(decomposition, direction, 1 - side, both);
   if (!decomposition.at_boundary(direction, 1 - side)) {
     for_each_row(field, ghosts, [&](std::ptrdiff_t row, int length) {
       std::fill_n(field.data() + row, length, 0.0);
@@ -146,14 +146,27 @@ void add_layers(const Decomposition& decomposition, Field& field, int direction,
 
 }  // namespace
 
+void fill_ghosts(const Decomposition& decomposition, std::span<Field* const> fields) {
+  for (int d = 0; d < 3; ++d) {
+    if (!has_neighbours(decomposition, d)) continue;
+    for (int side = 0; side < 2; ++side) {
+      const int layers = side == 0 ? halo + 1 : halo;
+      const int stride = layers_at_once(decomposition, d, layers);
+      for (int layer = 0; layer < layers; layer += stride) {
+        copy_layers(decomposition, fields, d, side, layer, layer + stride);
+      }
+    }
+  }
+}
+
 void fill_ghosts(const Decomposition& decomposition, Field& field) {
   Field* const fields[] = {&field};
-  fill(decomposition, fields);
+  fill_ghosts(decomposition, fields);
 }
 
 void fill_ghosts(const Decomposition& decomposition, VectorField& field) {
   Field* const fields[] = {&field[0], &field[1], &field[2]};
-  fill(decomposition, fields);
+  fill_ghosts(decomposition, fields);
 }
 
 void add_ghosts_to_owners(const Decomposition& decomposition, Field& field) {
@@ -168,8 +181,10 @@ void add_ghosts_to_owners(const Decomposition& decomposition, Field& field) {
   }
 }
 
-void sum_over_ranks(const Decomposition& decomposition, std::vector<double>& values) {
-  std::vector<double> all(values.size() * decomposition.size());
+void sum_over_ranks(const Decomposition& decomposition, std::span<double> values) {
+  if (decomposition.size() == 1) return;
+  static thread_local std::vector<double> all;
+  all.resize(values.size() * decomposition.size());
   const int count = static_cast<int>(values.size());
   MPI_Allgather(values.data(), count, MPI_DOUBLE, all.data(), count, MPI_DOUBLE,
                 decomposition.communicator());
@@ -178,9 +193,8 @@ void sum_over_ranks(const Decomposition& decomposition, std::vector<double>& val
 }
 
 double sum_over_ranks(const Decomposition& decomposition, double value) {
-  std::vector<double> one{value};
-  sum_over_ranks(decomposition, one);
-  return one[0];
+  sum_over_ranks(decomposition, {&value, 1});
+  return value;
 }
 
 double max_over_ranks(const Decomposition& decomposition, double value) {

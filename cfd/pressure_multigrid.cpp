@@ -9,13 +9,16 @@
 // Assumes a right-hand side without mean in every region that has no outlet; leaves the constant of
 // such a region at what the first guess had. Rounding gives the residual a mean there, for which no
 // solution exists and which the coarsest level would magnify: it is removed in every iteration.
+#include "cfd/pressure_multigrid.hpp"
+
 #include <cmath>
 #include <vector>
 
 #include "cfd/gas_regions.hpp"
 #include "cfd/halo_exchange.hpp"
+#include "cfd/loops.hpp"
 #include "cfd/multigrid.hpp"
-#include "cfd/pressure_solver.hpp"
+#include "cfd/pressure_operator.hpp"
 
 namespace gasgrain::cfd {
 
@@ -26,165 +29,134 @@ constexpr int restarts = 5;  // from the true residual
 class MultigridSolver final : public PressureSolver {
  public:
   explicit MultigridSolver(const Decomposition& decomposition)
-      : decomposition_(decomposition),
-        multigrid_(decomposition),
-        size_(decomposition.block().size),
-        residual_(size_),
-        previous_residual_(size_),
-        preconditioned_(size_),
-        direction_(size_),
-        image_(size_) {}
+      : decomposition_(decomposition), multigrid_(decomposition) {
+    for (Field* field : {&residual_, &preconditioned_, &direction_, &image_}) {
+      *field = Field(decomposition.block().size);
+    }
+  }
 
   PressureReport solve(const PressureSystem& system, double tolerance, int max_iterations,
                        Field& pressure) override;
 
  private:
-  // f(n) for the storage index n of every owned cell.
-  template <class F>
-  void for_cells(F f) const;
-  // Sum of f(n) over the owned cells of all ranks.
-  template <class F>
-  double sum_cells(F f) const;
-  // image = A field; returns field . image. Fills the ghosts of `field`.
-  double apply(const PressureSystem& system, Field& field, Field& image) const;
-  // residual = b - A p; returns its squared norm.
-  double compute_residual(const PressureSystem& system, Field& pressure);
+  // Squared 2-norms over all ranks.
+  struct Norms {
+    double residual, right_hand_side;
+  };
+  // residual = b - A p. Fills the ghosts of p.
+  Norms compute_residual(const PressureSystem& system, Field& pressure);
   // Removes the mean of the residual from regions without outlet.
   void remove_means(const PressureSystem& system);
   int iterate(const PressureSystem& system, double target, int max_iterations, double squared,
               Field& pressure);
-  void clear_isolated_cells(const PressureSystem& system, Field& pressure) const;
+  // direction = M^-1 residual + beta * direction; returns direction . residual. `alpha` is that of
+  // the iteration before, 0 in the first.
+  double next_direction(double squared, double alpha);
+  // Step by alpha; returns the squared norm of the new residual.
+  double step(double alpha, Field& pressure);
 
   const Decomposition& decomposition_;
   Multigrid multigrid_;
-  Index3 size_;
-  Field residual_, previous_residual_, preconditioned_, direction_, image_;
+  Field residual_, preconditioned_, direction_, image_;
+  Field best_;
+  double old_product_ = 0.0;  // of the preconditioned residual and the residual
+  std::vector<double> mean_;  // per region
 };
 
-template <class F>
-void MultigridSolver::for_cells(F f) const {
-  for (int k = 0; k < size_[2]; ++k)
-    for (int j = 0; j < size_[1]; ++j) {
-      const std::ptrdiff_t row = residual_.index(0, j, k);
-      for (std::ptrdiff_t n = row; n < row + size_[0]; ++n) f(n);
-    }
-}
-
-template <class F>
-double MultigridSolver::sum_cells(F f) const {
-  double sum = 0;
-  for_cells([&](std::ptrdiff_t n) { sum += f(n); });
-  return sum_over_ranks(decomposition_, sum);
-}
-
-double MultigridSolver::apply(const PressureSystem& system, Field& field, Field& image) const {
-  fill_ghosts(decomposition_, field);
-  const double* __restrict tx = system.transmissibility[0].data();
-  const double* __restrict ty = system.transmissibility[1].data();
-  const double* __restrict tz = system.transmissibility[2].data();
-  const double* __restrict diagonal = system.diagonal.data();
-  const double* __restrict x = field.data();
-  double* __restrict y = image.data();
-  const std::ptrdiff_t sy = field.stride(1);
-  const std::ptrdiff_t sz = field.stride(2);
-  return sum_cells([=](std::ptrdiff_t n) {
-    y[n] = diagonal[n] * x[n] + tx[n] * (x[n] - x[n - 1]) + tx[n + 1] * (x[n] - x[n + 1]) +
-           ty[n] * (x[n] - x[n - sy]) + ty[n + sy] * (x[n] - x[n + sy]) +
-           tz[n] * (x[n] - x[n - sz]) + tz[n + sz] * (x[n] - x[n + sz]);
-    return x[n] * y[n];
-  });
-}
-
-double MultigridSolver::compute_residual(const PressureSystem& system, Field& pressure) {
-  apply(system, pressure, image_);
-  return sum_cells([&](std::ptrdiff_t n) {
-    residual_[n] = system.right_hand_side[n] - image_[n];
-    return residual_[n] * residual_[n];
-  });
+MultigridSolver::Norms MultigridSolver::compute_residual(const PressureSystem& system,
+                                                         Field& pressure) {
+  fill_ghosts(decomposition_, pressure);
+  cfd::apply(image_, system, pressure);
+  const double* b = system.right_hand_side.data();
+  const double* image = image_.data();
+  double* r = residual_.data();
+  double norms[] = {sum_cells(residual_,
+                              [=](std::ptrdiff_t n) {
+                                r[n] = b[n] - image[n];
+                                return r[n] * r[n];
+                              }),
+                    sum_cells(residual_, [=](std::ptrdiff_t n) { return b[n] * b[n]; })};
+  sum_over_ranks(decomposition_, norms);
+  return {norms[0], norms[1]};
 }
 
 void MultigridSolver::remove_means(const PressureSystem& system) {
-  std::vector<double> mean = sum_per_region(decomposition_, *system.regions, residual_);
-  for (std::size_t r = 0; r < mean.size(); ++r) {
-    const GasRegion& region = system.regions->regions[r];
-    mean[r] = region.has_outlet ? 0.0 : mean[r] / region.cells;
-  }
-  auto region = system.regions->region_of_cell.begin();
-  for_cells([&](std::ptrdiff_t n) {
-    if (*region != GasRegions::none) residual_[n] -= mean[*region];
-    ++region;
-  });
+  means_of_singular_regions(mean_, decomposition_, *system.regions, residual_);
+  subtract_per_region(residual_, *system.regions, mean_);
+}
+
+double MultigridSolver::next_direction(double squared, double alpha) {
+  multigrid_.apply(residual_, 1 / std::sqrt(squared), preconditioned_);
+  const double* z = preconditioned_.data();
+  const double* r = residual_.data();
+  const double* image = image_.data();
+  double* p = direction_.data();
+  // r - r_old = -alpha image, so that z . (r - r_old) needs no copy of the old residual
+  double sums[] = {
+      sum_cells(residual_, [=](std::ptrdiff_t n) { return z[n] * r[n]; }),
+      alpha != 0 ? sum_cells(residual_, [=](std::ptrdiff_t n) { return z[n] * image[n]; }) : 0.0};
+  sum_over_ranks(decomposition_, sums);
+  const double beta = alpha != 0 ? -alpha * sums[1] / old_product_ : 0.0;
+  for_cells(residual_, [=](std::ptrdiff_t n) { p[n] = z[n] + beta * p[n]; });
+  return old_product_ = sums[0];
+}
+
+double MultigridSolver::step(double alpha, Field& pressure) {
+  const double* p = direction_.data();
+  const double* image = image_.data();
+  double* x = pressure.data();
+  double* r = residual_.data();
+  return sum_over_ranks(decomposition_, sum_cells(residual_, [=](std::ptrdiff_t n) {
+                          x[n] += alpha * p[n];
+                          r[n] -= alpha * image[n];
+                          return r[n] * r[n];
+                        }));
 }
 
 int MultigridSolver::iterate(const PressureSystem& system, double target, int max_iterations,
                              double squared, Field& pressure) {
   const bool singular = system.regions && system.regions->any_singular();
   if (singular) remove_means(system);
-  double old_product = 0;
+  double alpha = 0;
   int iterations = 0;
   while (squared > target * target && iterations < max_iterations) {
-    multigrid_.apply(residual_, 1 / std::sqrt(squared), preconditioned_);
-    double change = 0;
-    const double product =
-        sum_cells([&](std::ptrdiff_t n) { return preconditioned_[n] * residual_[n]; });
-    if (iterations > 0) {
-      change =
-          sum_cells([&](std::ptrdiff_t n) { return preconditioned_[n] * previous_residual_[n]; });
-    }
-    const double beta = iterations > 0 ? (product - change) / old_product : 0.0;
-    old_product = product;
-    for_cells([&](std::ptrdiff_t n) { direction_[n] = preconditioned_[n] + beta * direction_[n]; });
-    const double curvature = apply(system, direction_, image_);
+    const double product = next_direction(squared, alpha);
+    fill_ghosts(decomposition_, direction_);
+    const double curvature = sum_over_ranks(decomposition_, cfd::apply(image_, system, direction_));
     if (!(curvature > 0)) break;  // nothing left to gain in this precision
-    const double alpha = product / curvature;
-    squared = sum_cells([&](std::ptrdiff_t n) {
-      previous_residual_[n] = residual_[n];
-      pressure[n] += alpha * direction_[n];
-      residual_[n] -= alpha * image_[n];
-      return residual_[n] * residual_[n];
-    });
+    alpha = product / curvature;
+    squared = step(alpha, pressure);
     if (singular) remove_means(system);
     ++iterations;
   }
   return iterations;
 }
 
-void MultigridSolver::clear_isolated_cells(const PressureSystem& system, Field& pressure) const {
-  const auto& t = system.transmissibility;
-  for_cells([&](std::ptrdiff_t n) {
-    double sum = system.diagonal[n];
-    for (int d = 0; d < 3; ++d) sum += t[d][n] + t[d][n + t[d].stride(d)];
-    if (sum == 0) pressure[n] = 0;
-  });
-}
-
 PressureReport MultigridSolver::solve(const PressureSystem& system, double tolerance,
                                       int max_iterations, Field& pressure) {
   multigrid_.set_coefficients(system);
-  clear_isolated_cells(system, pressure);
-  const double norm = std::sqrt(sum_cells(
-      [&](std::ptrdiff_t n) { return system.right_hand_side[n] * system.right_hand_side[n]; }));
+  clear_isolated_cells(pressure, system);
   PressureReport report;
+  auto [squared, norm] = compute_residual(system, pressure);
   if (norm == 0) {
     pressure.fill(0.0);
     return report;
   }
-  const double target = tolerance * norm;
-  double squared = compute_residual(system, pressure);
+  const double target = tolerance * std::sqrt(norm);
   for (int attempt = 0; attempt < restarts && squared > target * target; ++attempt) {
     const int left = max_iterations - report.iterations;
     const double before = squared;
-    const Field best = pressure;
+    best_ = pressure;
     report.iterations += iterate(system, target, left, squared, pressure);
-    squared = compute_residual(system, pressure);
+    squared = compute_residual(system, pressure).residual;
     if (!(squared < before)) {  // round-off is all that is left
-      pressure = best;
+      pressure = best_;
       squared = before;
       break;
     }
   }
-  report.residual = std::sqrt(squared) / norm;
-  fill_ghosts(decomposition_, pressure);
+  report.residual = std::sqrt(squared / norm);
+  report.converged = report.residual <= tolerance;
   return report;
 }
 

@@ -47,8 +47,8 @@ class Projection {
                            const VectorField& velocity, double dt);
   void add_outlets();
   double remove_means(double dt);
-  void remove_pressure_means(Field& pressure) const;
-  void check(const PressureReport& report, const Field& pressure) const;
+  void remove_pressure_means(Field& pressure);
+  void check(const PressureReport& report) const;
   void set_gradient(const Field& pressure);
 
   const GasDomain& domain_;
@@ -59,6 +59,7 @@ class Projection {
   Field term_norm_;    // sum of |terms| of the right-hand side per cell
   Field outlet_term_;  // coefficient times pressure of the outlets, m^3/s
   GasRegions regions_;
+  std::vector<double> region_means_, region_sums_, region_norms_, region_volumes_;
   VectorField gradient_;
 };
 

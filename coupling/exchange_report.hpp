@@ -20,6 +20,7 @@ struct ExchangeReport {
   double solid_volume_residual = 0.0;   // deposited over given - 1
   int gas_steps = 0;                    // the interval was divided into
   int pressure_iterations = 0;          // sum over the gas steps
+  int pressure_fallbacks = 0;           // gas steps whose pressure the fallback had to solve
   double divergence = 0.0;              // largest of the gas steps, see cfd::StepReport
   double removed_mean = 0.0;            // likewise
   double interval = 0.0;                // s

@@ -204,6 +204,7 @@ void GasCoupling::advance_gas(double interval) {
     }
     const cfd::StepReport step = gas_.advance(interval / steps);
     report_.pressure_iterations += step.pressure.iterations;
+    report_.pressure_fallbacks += step.pressure.fallbacks;
     report_.divergence = std::max(report_.divergence, step.divergence);
     report_.removed_mean = std::max(report_.removed_mean, step.removed_mean);
     add(report_.gas_momentum, step.momentum);

@@ -156,6 +156,9 @@ std::string closing_text(const SeriesRow& row, const RunStatistics& statistics,
            extremes.solid_volume_residual, extremes.smallest_void_fraction);
   out += text("  continuity           largest divergence %.2g, removed mean %.2g\n",
               extremes.divergence, extremes.removed_mean);
+  if (extremes.pressure_fallbacks > 0) {
+    out += text("  pressure fallback    took over in %ld gas steps\n", extremes.pressure_fallbacks);
+  }
   out += text("  largest overlap      %.3g um, %.3g %% of the grain diameter\n",
               extremes.overlap.length * 1e6, 100 * extremes.overlap.relative);
   out += text("  closure limited      %ld times; at most %ld grains outside the gas grid\n",
@@ -201,7 +204,8 @@ std::vector<NamedValue> series_values(const SeriesRow& row, int axis) {
           {"largest_relative_overlap", row.overlap.relative},
           {"interval", exchange.interval},
           {"gas_steps", double(exchange.gas_steps)},
-          {"pressure_iterations", double(exchange.pressure_iterations)}};
+          {"pressure_iterations", double(exchange.pressure_iterations)},
+          {"pressure_fallbacks", double(exchange.pressure_fallbacks)}};
 }
 
 std::vector<Quantity> summary_quantities(const RunStatistics& statistics, const WallTimes& times,

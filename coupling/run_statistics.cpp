@@ -11,6 +11,7 @@ void RunExtremes::note(const ExchangeReport& report) {
   ++exchanges;
   gas_steps += report.gas_steps;
   pressure_iterations += report.pressure_iterations;
+  pressure_fallbacks += report.pressure_fallbacks;
   limited += report.limited;
   grains_outside = std::max(grains_outside, report.grains_outside);
   third_law_residual = std::max(third_law_residual, report.third_law_residual);

@@ -25,7 +25,7 @@ struct WallTimes {
 
 // Largest values (and a few sums) over the whole run.
 struct RunExtremes {
-  long exchanges = 0, gas_steps = 0, pressure_iterations = 0, limited = 0, grains_outside = 0;
+  long exchanges = 0, gas_steps = 0, pressure_iterations = 0, pressure_fallbacks = 0, limited = 0, grains_outside = 0;
   double shortest_interval = 0.0, longest_interval = 0.0;  // s
   double third_law_residual = 0.0, pressure_residual = 0.0, solid_volume_residual = 0.0;
   double divergence = 0.0, removed_mean = 0.0;

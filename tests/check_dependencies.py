@@ -23,7 +23,7 @@ ALLOWED = {
 BOUNDARIES = {
     r"toml\+\+/": ["coupling/shared/config_table.cpp"],
     r"hdf5\.h|H5\w+\.h": ["coupling/files/hdf5_file.cpp"],
-    r"HYPRE\w*\.h|_hypre\w*\.h": ["cfd/pressure_hypre.cpp"],
+    r"HYPRE\w*\.h|_hypre\w*\.h": ["cfd/hypre_struct.cpp", "cfd/hypre_boomeramg.cpp"],
     r"Eigen/": ["coupling/shared/vec3.hpp", "cfd/multigrid.cpp"],  # there: a dense solve
     r"CLI/": ["coupling/files/gasgrain_sdf.cpp", "cfd/gasgrain_gas.cpp", "coupling/gasgrain_main.cpp"],
 }

@@ -24,7 +24,8 @@ z_lower = {type = "inlet", superficial_velocity = 0.2}
 z_upper = {type = "outlet", pressure = 5}
 [numerics]
 convection = "central"
-pressure_solver = "hypre"
+pressure_solver = "hypre-smg"
+pressure_fallback = "none"
 pressure_tolerance = 1e-8
 [fixed_bed]
 void_fraction = 0.4
@@ -60,7 +61,8 @@ TEST(GasCase, reads_every_section) {
   EXPECT_EQ(c.boundaries[2][0].superficial_velocity, Vec3(0, 0, 0.2));
   EXPECT_EQ(c.boundaries[2][1].pressure, 5.0);
   EXPECT_EQ(c.numerics.convection, Convection::central);
-  EXPECT_EQ(c.numerics.pressure_solver, PressureMethod::hypre);
+  EXPECT_EQ(c.numerics.pressure_solver, PressureMethod::hypre_smg);
+  EXPECT_EQ(c.numerics.pressure_fallback, PressureFallback::none);
   EXPECT_TRUE(c.fixed_bed.present);
   EXPECT_EQ(c.fixed_bed.upper, c.grid.upper);
 }

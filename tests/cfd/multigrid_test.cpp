@@ -1,5 +1,5 @@
-// The multigrid-preconditioned solver against the operator it inverts, on the kind of coefficients a
-// dense bed with tubes gives: contrast of a thousand between bed and freeboard, closed faces.
+// The multigrid-preconditioned solver against the operator it inverts, on the kind of coefficients
+// a dense bed with tubes gives: contrast of a thousand between bed and freeboard, closed faces.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,9 +74,9 @@ Scene make_scene(const Index3& cells, Ends ends) {
         }
         const double c = cell_coefficient(grid, cell);
         const Vec3 x((cell[0] + 0.5) * h[0], (cell[1] + 0.5) * h[1], (cell[2] + 0.5) * h[2]);
-        scene.exact(i, j, k) =
-            c > 0 ? std::cos(130 * x[0]) * std::cos(20 * x[2]) + 0.3 * noise(cell[0] + 77L * cell[2])
-                  : 0.0;
+        scene.exact(i, j, k) = c > 0 ? std::cos(130 * x[0]) * std::cos(20 * x[2]) +
+                                           0.3 * noise(cell[0] + 77L * cell[2])
+                                     : 0.0;
         sum += c > 0 ? 1 : 0;
       }
   // Right-hand side of the exact solution, hence compatible when the box is sealed.
@@ -128,7 +128,7 @@ class MultigridOnShapes : public testing::TestWithParam<std::tuple<Index3, Ends>
 TEST_P(MultigridOnShapes, recovers_the_exact_solution_in_few_iterations) {
   const auto& [cells, ends] = GetParam();
   const Scene scene = make_scene(cells, ends);
-  auto solver = make_multigrid_solver(scene.blocks);
+  auto solver = make_pressure_solver(scene.blocks, PressureMethod::multigrid);
   Field pressure(scene.blocks.block().size);
   const PressureReport report = solver->solve(scene.system, 1e-11, 100, pressure);
   EXPECT_LE(report.residual, 1e-11);
