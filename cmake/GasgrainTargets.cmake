@@ -2,14 +2,13 @@
 # the same language level, warnings and floating-point rules.
 #
 # -fno-math-errno and -fno-trapping-math let the compiler vectorize sqrt and loops with conditions;
-# -ffp-contract=fast allows fused multiply-add. None reorders sums; -fopenmp-simd does where a loop
-# asks for it (cfd/loops.hpp), always in the same order. So the same build gives the same bits in
-# every run.
+# -ffp-contract=fast allows fused multiply-add. None reorders sums, so the same build gives the same
+# bits in every run.
 
 function(_gasgrain_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
-    -fno-math-errno -fno-trapping-math -ffp-contract=fast -fopenmp-simd)
+    -fno-math-errno -fno-trapping-math -ffp-contract=fast)
   # GCC 12 reports its own AVX-512 intrinsics (GCC bug 105593); Open MPI's C++ bindings are unused.
   target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
   target_compile_definitions(${target} PUBLIC OMPI_SKIP_MPICXX)
