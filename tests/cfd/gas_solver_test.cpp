@@ -100,7 +100,7 @@ TEST(GasSolver, sealed_bottle_with_moving_grains_is_continuous_to_round_off) {
     for (int n = 1; n <= 5; ++n) {
       set_moving_heap(solver, 0.03 * n, 0.35, 1000.0);
       const StepReport report = solver.advance(2e-3);
-      if (method != PressureMethod::hypre_pfmg_rap) EXPECT_EQ(report.pressure.fallbacks, 0);
+      EXPECT_TRUE(report.pressure.fallbacks == 0 || method == PressureMethod::hypre_pfmg_rap);
       EXPECT_LT(report.divergence, 1e-12);
       EXPECT_LT(report.removed_mean, 1e-12);
       EXPECT_LT(testing::imbalance(report.momentum).norm(),
@@ -225,7 +225,7 @@ TEST(GasSolver, every_pressure_method_solves_periodic_and_one_dimensional_grids)
       solver.accept_void_fraction_as_old();
       set_moving_heap(solver, 0.1, 0.3, 40.0);
       const StepReport report = solver.advance(1e-4);
-      if (method != PressureMethod::hypre_smg) EXPECT_EQ(report.pressure.fallbacks, 0);
+      EXPECT_TRUE(report.pressure.fallbacks == 0 || method == PressureMethod::hypre_smg);
       EXPECT_LT(report.divergence, 1e-10);
       EXPECT_LT(report.removed_mean, 1e-12);
     }
