@@ -52,7 +52,7 @@ std::optional<Options> parse(int argc, char** argv, int& code) {
 
 void run_case(const Options& options) {
   GasCase gas_case;
-  run_collectively(MPI_COMM_WORLD, [&] {
+  gasgrain::run_collectively(MPI_COMM_WORLD, [&] {
     const ConfigTable file = ConfigTable::parse_file(options.case_file);
     gas_case = read_gas_case(file);
     file.reject_unknown_keys();
