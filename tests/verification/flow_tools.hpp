@@ -17,7 +17,9 @@ double pressure_at(const cfd::GasSolver& solver, const Vec3& x);
 // The velocity of `solver` as it is now, to start a finer grid from.
 std::function<Vec3(const Vec3&)> sampled_velocity(const cfd::GasSolver& solver);
 
-// Advances at the largest stable step by `duration` (s); the last step is cut to end there.
+// Advances by `duration` (s) in equal steps a little below the largest stable one at its start. (A
+// change of step changes the pressure force on bodies for a while: what the flow next to them
+// misses of the no-slip condition is proportional to the step.)
 void advance_by(cfd::GasSolver& solver, double duration);
 
 // Advances until `watched` changes by less than `tolerance` of itself per `duration` (s), and no
