@@ -106,5 +106,33 @@ TEST(FreeCylinder, steady_flow_at_re_40) {
   report_steady_free_cylinder("free_cylinder_re_40", 40);
 }
 
+// A whole cylinder; a start from a skew flow makes it shed without delay.
+TEST(FreeCylinder, vortex_street_at_re_100) {
+  Report report("free_cylinder_re_100", "free cylinder, Re 100, grid 10 + 20 x 24 diameters");
+  std::unique_ptr<GasSolver> solver;
+  for (const int cells : {6, 12}) {
+    const CylinderFlow flow = free_cylinder({100, cells, 10, 20, 12});
+    const GasSolver* coarser = solver.get();
+    auto finer = start(flow, coarser);
+    if (coarser == nullptr) {
+      finer->set_velocity([](const Vec3& x) {
+        return Vec3(1.0, 0, 0.5 * std::exp(-0.5 * (x - Vec3(1.5, 0, 0)).squaredNorm()));
+      });
+    }
+    solver = std::move(finer);
+    advance_by(*solver, cells == 6 ? 80.0 : 15.0);
+    Trace trace;
+    advance_and_record(trace, flow, *solver, 20.0);
+    const Oscillation lift = oscillation_after(0.0, trace.time, trace.lift),
+                      drag = oscillation_after(0.0, trace.time, trace.drag);
+    const auto state = [&](const char* quantity, double value) {
+      cells == 12 ? report.check(quantity, label(cells), value)
+                  : report.note(quantity, label(cells), value);
+    };
+    state("drag coefficient", drag.mean);
+    state("Strouhal number", lift.frequency);
+  }
+}
+
 }  // namespace
 }  // namespace gasgrain::verification
