@@ -64,8 +64,8 @@ TEST(CylinderInChannel, vortex_street_at_re_100) {
     const CylinderFlow flow = channel_with_cylinder(cells, 1.0);
     solver = start(flow, solver.get());
     Trace trace;
-    advance_by(*solver, cells == 10 ? 5.0 : 1.5);
-    advance_and_record(trace, flow, *solver, 1.5);
+    advance_by(*solver, cells == 10 ? 10.0 : 2.0);
+    advance_and_record(trace, flow, *solver, 1.2);
     const double from = trace.time.front();
     const Oscillation drag = oscillation_after(from, trace.time, trace.drag),
                       lift = oscillation_after(from, trace.time, trace.lift);
