@@ -67,7 +67,8 @@ Extremes extremes_of(const Profiles& p) {
 }  // namespace
 
 void report_cavity(const std::string& name, int reynolds_number, const std::vector<int>& cells) {
-  Report report(name, "lid-driven cavity, Re " + std::to_string(reynolds_number));
+  Report report(name, "lid-driven cavity, Re " + std::to_string(reynolds_number) + ", " +
+                          std::to_string(cells.back()) + " cells");
   std::unique_ptr<GasSolver> solver;
   for (const int n : cells) {
     auto finer = std::make_unique<GasSolver>(cavity(n, reynolds_number), MPI_COMM_WORLD);

@@ -21,7 +21,8 @@ Made by `tests/verification/run` from the stored results; do not edit by hand. E
 
 Error: relative to the reference, or the value itself where the reference is 0. Values without a
 bound are for comparison: coarser grids, and published values with a known error of their own.
-References and their sources: [references.csv](../tests/verification/references.csv).
+References and their sources: [references.csv](../tests/verification/references.csv). A new case is a
+test that calls `Report::check` (`tests/verification/report.hpp`) and a row there per quantity.
 """
 
 NOTES = HERE / "notes.md"
@@ -66,8 +67,21 @@ def table(rows, listed):
     return "\n".join(lines)
 
 
+def anchor(title):
+    kept = "".join(c for c in title.lower() if c.isalnum() or c in " -_")
+    return kept.replace(" ", "-")
+
+
+def worst_error(rows):
+    """Largest relative error among the values that are held to a share of their reference."""
+    errors = [abs(float(r["value"]) / float(r["reference"]) - 1) for r in rows
+              if r["pass"].endswith("%")]
+    return f"{100 * max(errors):.2g} %" if errors else ""
+
+
 def page(cases):
     parts, passed, missed, absent = [], 0, [], []
+    overview = ["| case | values within bounds | largest error |", "|---|---|---|"]
     for case, listed in cases.items():
         path = RESULTS / f"{case}.csv"
         if not path.exists():
@@ -77,9 +91,14 @@ def page(cases):
         passed += sum(row["result"] == "pass" for row in rows)
         missed += [f"{head['title']}: {row['quantity']}" for row in rows if row["result"] == "MISS"]
         title = head["title"][0].upper() + head["title"][1:]
+        bounded = [row for row in rows if row["pass"]]
+        good = sum(row["result"] == "pass" for row in bounded)
+        overview.append(f"| [{title}](#{anchor(title)}) | {good} of {len(bounded)} | "
+                        f"{worst_error(bounded)} |")
         parts.append(f"## {title}\n\n`{head['command']}`, program `{head['program']}`, commit "
                      f"{head['commit']}, {head['date']}\n\n{table(rows, listed)}\n")
-    summary = f"{len(parts)} cases, {passed} values within their bounds, {len(missed)} not.\n"
+    summary = f"{len(parts)} cases, {passed} values within their bounds, {len(missed)} not.\n\n"
+    summary += "\n".join(overview) + "\n"
     if missed:
         summary += "\nOutside:\n\n" + "".join(f"- {m}\n" for m in missed)
     if absent:
