@@ -1,6 +1,9 @@
 #include "cfd/gas_domain.hpp"
 
+#include <algorithm>
+
 #include "cfd/halo_exchange.hpp"
+#include "cfd/moving_walls.hpp"
 
 namespace gasgrain::cfd {
 
@@ -54,6 +57,45 @@ GasDomain::GasDomain(const GasCase& gas_case, MPI_Comm communicator)
       walls(make_wall_geometry(decomposition, sides, bodies)),
       spacing(gas_case.grid.spacing()),
       open_share(size()) {
+  derive();
+  for (int d = 0; d < 3; ++d) {
+    varies[d] = decomposition.grid().cells[d] > 1 || has_shear_or_flux(sides, d, 0) ||
+                has_shear_or_flux(sides, d, 1);
+  }
+  std::vector<Body> resting;
+  for (const Body& body : bodies) {
+    if (body.motion.is_at_rest()) {
+      resting.push_back(body);
+    } else if (body.acts_on_gas) {
+      has_motion = true;
+    }
+  }
+  if (!has_motion) return;
+  resting_open_area = make_wall_geometry(decomposition, sides, resting).open_area;
+  swept = Field(size());
+  set_swept_volume(swept, *this);
+}
+
+bool GasDomain::walls_move_until(double time) const {
+  return std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+    return body.acts_on_gas && body.motion.sweeps() && body.motion.moves_between(walls_time, time);
+  });
+}
+
+void GasDomain::move_to(double time) {
+  if (!has_motion) return;
+  if (walls_move_until(time)) {
+    walls = make_wall_geometry(decomposition, sides, bodies, time);
+    derive();
+  } else {
+    set_wall_velocities(walls, decomposition, bodies, time);
+  }
+  walls_time = time;
+  set_swept_volume(swept, *this);
+}
+
+void GasDomain::derive() {
+  any_lenders = false;
   for (std::size_t n = 0; n < open_share.count(); ++n) open_share[n] = 1 - walls.wall_fraction[n];
   for (int d = 0; d < 3; ++d) {
     lenders[d] = lenders_of(*this, d);
@@ -69,8 +111,6 @@ GasDomain::GasDomain(const GasCase& gas_case, MPI_Comm communicator)
                   [&](int i, int j, int k) { sum += control_volume[d](i, j, k); });
     fill_ghosts(decomposition, control_volume[d]);
     solved[d] = sum_over_ranks(decomposition, sum) > 0.0;
-    varies[d] = decomposition.grid().cells[d] > 1 || has_shear_or_flux(sides, d, 0) ||
-                has_shear_or_flux(sides, d, 1);
   }
 }
 

@@ -22,20 +22,31 @@ struct Lender {
 struct GasDomain {
   GasDomain(const GasCase& gas_case, MPI_Comm communicator);
 
+  // Moves the bodies to where they are at `time` [s]. Collective.
+  void move_to(double time);
+  // The shape of some body has another place at `time` than now.
+  bool walls_move_until(double time) const;
+
   Decomposition decomposition;
   SideConditions sides;
   std::vector<Body> bodies;
   GasProperties gas;
   WallGeometry walls;
-  double walls_time = 0.0;     // s: the bodies stand where they are then
-  Vec3 spacing;                // m
-  std::array<bool, 3> solved;  // component d has a face that takes part, on some rank
-  std::array<bool, 3> varies;  // something can change along direction d
-  VectorField control_volume;  // of faces, m^3: sum of the shares of its cells, 0 where fixed
-  Field open_share;            // cells: 1 - alpha
+  double walls_time = 0.0;        // s: the bodies stand where they are then
+  bool has_motion = false;        // some body that acts on the gas moves at some time
+  VectorField resting_open_area;  // with motion: a of the resting bodies alone
+  Field swept;                    // with motion: see set_swept_volume(), m^3/s
+  Vec3 spacing;                   // m
+  std::array<bool, 3> solved;     // component d has a face that takes part, on some rank
+  std::array<bool, 3> varies;     // something can change along direction d
+  VectorField control_volume;     // of faces, m^3: sum of the shares of its cells, 0 where fixed
+  Field open_share;               // cells: 1 - alpha
   std::array<std::vector<Lender>, 3> lenders;  // with hosts among owned cells and first ghosts
   bool any_lenders = false;                    // on some rank
   VectorField joint_share;                     // cells: 1 - alpha with that of their lenders
+
+  // Whatever follows from `walls`.
+  void derive();
 
   const Index3& size() const { return decomposition.block().size; }
   // Position of the centre of a cell, or of a face of direction d, at local indices, m.

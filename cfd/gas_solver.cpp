@@ -11,15 +11,17 @@
 //                              + eps rho g + B v
 //   2  u* = u^ /(1 + K)
 //   3  u* near bodies blended with their no-slip profile, u* = u_wall inside them
-//   4  div( a c grad p ) = (1 - alpha)(eps_new - eps_old)/dt + div(a eps u*),
+//   4  div( a c grad p ) = (1 - alpha)(eps_new - eps_old)/dt - swept + div(a eps u*),
 //                          c = eps dt/(rho (1 + K))
 //   5  u = u* - (c/eps) grad p
 //
-// a is the open share of a face, alpha the solid share of a cell. eps, B and B v of a face are
-// means over the shares its cells' grains have in it. The bracket is evaluated with the void
-// fraction of its own time; gravity is taken with the new one, so that gas at rest stays at rest
-// while grains move. Drag is implicit in 2 and in 4, without which a bed's pressure drop would be
-// too low by 1/(1 + K) (only 2) or the step limited to 2 eps rho / beta (explicit).
+// a is the open share of a face, alpha the solid share of a cell, both with the bodies where they
+// are at the end of the step; swept is the volume that moving bodies leave (moving_walls.cpp). eps,
+// B and B v of a face are means over the shares its cells' grains have in it. The bracket is
+// evaluated with the void fraction of its own time; gravity is taken with the new one, so that gas
+// at rest stays at rest while grains move. Drag is implicit in 2 and in 4, without which a bed's
+// pressure drop would be too low by 1/(1 + K) (only 2) or the step limited to 2 eps rho / beta
+// (explicit).
 #include "cfd/gas_solver.hpp"
 
 #include <algorithm>
@@ -35,6 +37,7 @@
 #include "cfd/immersed_boundary.hpp"
 #include "cfd/interval_means.hpp"
 #include "cfd/momentum_budget.hpp"
+#include "cfd/moving_walls.hpp"
 #include "cfd/projection.hpp"
 #include "cfd/time_step.hpp"
 #include "cfd/viscous_stress.hpp"
@@ -43,6 +46,9 @@
 namespace gasgrain::cfd {
 
 namespace {
+
+// Bodies moved to within this share of a step of its end stand where they shall.
+constexpr double walls_are_there = 1e-9;
 
 // The bracket of step 1 at one time, N/m^3 on faces, and its integrals over this rank, N.
 struct Slope {
@@ -65,6 +71,8 @@ struct GasSolver::State {
   State(const GasCase& given, MPI_Comm communicator);
 
   void set_velocity(const std::function<Vec3(const Vec3&)>& function);
+  bool move_bodies(double new_time);  // the shape of some body has moved
+  void find_walls();
   void evaluate_slope();
   void predict(double dt, const AdamsBashforth& weights);
   void measure_loads(MomentumBudget& budget, double dt, const AdamsBashforth& weights);
@@ -89,6 +97,7 @@ struct GasSolver::State {
   Slope slope, old_slope;
   IntervalMeans means;
   double time = 0.0, previous_dt = 0.0;
+  Vec3 momentum_of_moved_walls = Vec3::Zero();  // change of this rank's gas momentum by them, N s
 };
 
 GasSolver::State::State(const GasCase& given, MPI_Comm communicator)
@@ -121,8 +130,43 @@ void GasSolver::State::set_velocity(const std::function<Vec3(const Vec3&)>& func
   previous_dt = 0.0;
 }
 
+// Cells and faces that the bodies give free keep the velocity of the wall and get the pressure next
+// to them; grains of cells that close go to their neighbours.
+bool GasSolver::State::move_bodies(double new_time) {
+  if (!domain.has_motion) return false;
+  if (!domain.walls_move_until(new_time)) {
+    domain.move_to(new_time);
+    return false;
+  }
+  const Vec3 momentum_before = gas_momentum(domain, medium, velocity);
+  const Field old_open_share = domain.open_share;
+  domain.move_to(new_time);
+  if (medium.has_grains) {
+    carry_grains(medium.cell_void_fraction, domain, old_open_share);
+    fill_scalar_ghosts(domain, medium.cell_void_fraction);
+    grains.void_fraction = medium.cell_void_fraction;
+  }
+  medium.edges = make_edge_void_fraction(domain);
+  if (medium.has_grains) update(medium.edges, domain, medium.cell_void_fraction);
+  fill_fresh_cells(pressure, domain, old_open_share);
+  find_walls();
+  fill_velocity_ghosts(domain, medium, velocity);
+  momentum_of_moved_walls += gas_momentum(domain, medium, velocity) - momentum_before;
+  return true;
+}
+
+// What the parts of the step know of the walls of the domain.
+void GasSolver::State::find_walls() {
+  immersed_boundary = ImmersedBoundary(domain);
+  loads.find_walls();
+  projection.find_regions();
+}
+
 void GasSolver::State::evaluate_slope() {
   std::swap(slope, old_slope);
+  if (domain.has_motion) {  // the volumes of faces have changed
+    old_slope.convection = volume_integral(domain, old_slope.total) - old_slope.viscous;
+  }
   for (Field& component : slope.total) component.fill(0.0);
   add_convection(slope.total, domain, medium, velocity, gas_case.numerics.convection);
   slope.convection = volume_integral(domain, slope.total);
@@ -179,6 +223,12 @@ void GasSolver::State::check_finite(double dt, double speed_before) const {
 void GasSolver::State::visit(StateArchive& archive) {
   archive.number("time", time);
   archive.number("previous_dt", previous_dt);
+  double walls_time = domain.walls_time;
+  archive.number("walls_time", walls_time);
+  if (archive.restores() && domain.has_motion) {
+    domain.move_to(walls_time);
+    find_walls();
+  }
   archive.faces("velocity", velocity);
   archive.cells("pressure", pressure);  // the first guess of the next solve
   archive.faces("slope", slope.total);
@@ -223,10 +273,13 @@ StepReport GasSolver::advance(double dt) {
   MomentumBudget& budget = report.momentum;
   const AdamsBashforth weights = adams_bashforth(dt, s.previous_dt);
   const double speed_before = s.speeds.maxCoeff();
+  if (s.time + dt > domain.walls_time + walls_are_there * dt) s.move_bodies(s.time + dt);
   const Field old_void_fraction = s.medium.cell_void_fraction;
 
   s.evaluate_slope();
-  const Vec3 momentum_before = gas_momentum(domain, s.medium, s.velocity);
+  const Vec3 momentum_before =
+      gas_momentum(domain, s.medium, s.velocity) - s.momentum_of_moved_walls;
+  s.momentum_of_moved_walls = Vec3::Zero();
   update(s.medium, domain, s.grains);
   const Vec3 momentum_with_new_void = gas_momentum(domain, s.medium, s.velocity);
 
@@ -250,6 +303,7 @@ StepReport GasSolver::advance(double dt) {
 
   report.pressure = projected.solve;
   report.removed_mean = projected.removed_mean;
+  report.swept_imbalance = projected.swept_imbalance;
   report.divergence = s.projection.divergence(s.medium, old_void_fraction, s.velocity, dt);
   s.speeds = largest_speeds(domain, s.velocity);
   report.largest_speed = s.speeds.maxCoeff();
@@ -300,6 +354,10 @@ const Field& GasSolver::pressure() const {
 }
 const Field& GasSolver::void_fraction() const {
   return state_->medium.cell_void_fraction;
+}
+
+bool GasSolver::move_bodies(double time) {
+  return state_->move_bodies(time);
 }
 
 void GasSolver::visit_state(StateArchive& archive) {

@@ -50,12 +50,14 @@ struct MomentumBudget {
 };
 
 struct StepReport {
-  PressureReport pressure;      // iterations, residual
-  double divergence = 0.0;      // largest |continuity residual| * dt, relative to eps (-)
-  double removed_mean = 0.0;    // of the pressure right-hand side, relative to the 1-norm of its
-                                // terms; 0 when the system is not singular
-  double courant_number = 0.0;  // largest |u| dt / dx after the step
-  double largest_speed = 0.0;   // largest velocity component after the step, m/s
+  PressureReport pressure;       // iterations, residual
+  double divergence = 0.0;       // largest |continuity residual| * dt, relative to eps (-)
+  double removed_mean = 0.0;     // of the pressure right-hand side, relative to the 1-norm of its
+                                 // terms; 0 when the system is not singular
+  double swept_imbalance = 0.0;  // of sealed regions: net volume that moving bodies leave over what
+                                 // they leave and take (-); evened out, see Projection
+  double courant_number = 0.0;   // largest |u| dt / dx after the step
+  double largest_speed = 0.0;    // largest velocity component after the step, m/s
   MomentumBudget momentum;
 };
 
@@ -78,6 +80,12 @@ class GasSolver {
   // Makes the void fraction of grains() also the one at the start of the coming step: at the very
   // first exchange, when grains appear without displacing gas.
   void accept_void_fraction_as_old();
+
+  // Moves the bodies to where they are at `time` [s], not before time(). advance() does this itself
+  // for the end of its step; call it when the walls must be known before the grains are mapped. The
+  // void fraction of grains() is then per the new open volume, with the same solid volume.
+  // Returns true when some shape has another place now. Collective.
+  bool move_bodies(double time);
 
   // One step of dt [s]. Throws UserError when the pressure solve fails or the velocity is no longer
   // finite; the message says the time, the largest velocity and the step.

@@ -12,7 +12,7 @@
 // than a cell and imposing the profile there would act as a wall friction that does not exist. In
 // gas without grains w = 1; without viscosity w = 0 (a frictionless gas slips).
 //
-// Bodies are fixed in space; their surface may slide (wall_velocity).
+// A moving body needs the same with its faces and distances at the end of the step.
 #include "cfd/immersed_boundary.hpp"
 
 #include <algorithm>
@@ -56,7 +56,6 @@ ImmersedBoundary::ImmersedBoundary(const GasDomain& domain) : varies_(domain.var
                 .base = n,
                 .weight = Vec3::Zero(),
                 .distance = phi,
-                .wall_velocity = domain.walls.wall_velocity[d][n],
                 .body = static_cast<int>(domain.walls.nearest_body[d][n]),
                 .position = domain.face_centre(d, i, j, k),
                 .impulse = 0.0};
@@ -100,7 +99,7 @@ Vec3 ImmersedBoundary::apply(VectorField& velocity, const GasDomain& domain,
     for (Face& face : faces_[d]) {
       const double beta = medium.has_grains ? medium.momentum_exchange[d][face.face] : 0.0;
       const double eps = face_void_fraction(medium, d, face.face);
-      const double phi = face.distance, wall = face.wall_velocity;
+      const double phi = face.distance, wall = domain.walls.wall_velocity[d][face.face];
       const double w = 1.0 / (1.0 + beta * phi * (phi + probe_length_) / (eps * mu));
       const double profile = wall + phi / (phi + probe_length_) * (at_point(face, u) - wall);
       changed.push_back((1.0 - w) * u[face.face] + w * profile);

@@ -27,14 +27,13 @@ class ImmersedBoundary {
 
  private:
   struct Face {
-    std::ptrdiff_t face;   // storage index
-    std::ptrdiff_t base;   // lowest of the eight faces around the point x + delta n
-    Vec3 weight;           // of the upper faces in each direction
-    double distance;       // phi, m
-    double wall_velocity;  // m/s
-    int body;              // the nearest one
-    Vec3 position;         // of the face's centre, m
-    double impulse;        // added by the last apply(), N s
+    std::ptrdiff_t face;  // storage index
+    std::ptrdiff_t base;  // lowest of the eight faces around the point x + delta n
+    Vec3 weight;          // of the upper faces in each direction
+    double distance;      // phi, m
+    int body;             // the nearest one
+    Vec3 position;        // of the face's centre, m
+    double impulse;       // added by the last apply(), N s
   };
 
   double at_point(const Face& face, const Field& velocity) const;

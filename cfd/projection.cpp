@@ -1,9 +1,10 @@
 // The pressure equation, integrated over the cells,
 //
 //   sum over faces of a c A/h (p - p_neighbour) = -(1 - alpha) V (eps_new - eps_old)/dt
-//                                                 - sum of a eps u* A outwards,
+//                                                 + swept - sum of a eps u* A outwards,
 //   c = eps dt / (rho (1 + K)),     K = dt B / (eps rho),
 //
+// swept: what moving bodies leave to the cell (moving_walls.cpp),
 // with a half cell between the last cell and an outlet. Drag is part of c as well as of u*: with
 // drag in u* alone the pressure drop of a bed would be short by 1/(1 + K).
 //
@@ -24,6 +25,7 @@ namespace gasgrain::cfd {
 namespace {
 
 constexpr double largest_imbalance = 1e-12;  // of a sealed region, relative to its terms
+constexpr double largest_swept_imbalance = 0.1;
 constexpr double round_off_margin = 8.0;     // in units of the evaluation's own round-off
 
 // 1 / (rho (1 + K)) * dt = dt / (rho + dt B / eps), the velocity that a unit gradient removes.
@@ -81,6 +83,7 @@ void Projection::set_coefficients(const FaceMedium& medium, double dt) {
     const bool joins_itself = domain_.decomposition.grid().cells[d] == 1;
     for_each_in(inner_faces(domain_, d), [&](int i, int j, int k) {
       const std::ptrdiff_t n = t.index(i, j, k);
+      t[n] = 0.0;
       if (part[n] == 0.0 || joins_itself) return;
       t[n] = scale * open[n] * face_void_fraction(medium, d, n) *
              mobility(medium, domain_.gas.density, dt, d, n);
@@ -111,6 +114,10 @@ void Projection::set_right_hand_side(const FaceMedium& medium, const Field& old_
     const double growth = (medium.cell_void_fraction[n] - old_void_fraction[n]) / dt;
     rhs[n] = -domain_.open_share[n] * domain_.cell_volume() * growth;
     term_norm_[n] = std::abs(rhs[n]);
+    if (domain_.has_motion) {
+      rhs[n] += swept_[n];
+      term_norm_[n] += std::abs(swept_[n]);
+    }
     for (int d = 0; d < 3; ++d) {
       const Field& open = domain_.walls.open_area[d];
       const auto flux = [&](std::ptrdiff_t face) {
@@ -152,7 +159,9 @@ double Projection::remove_means(double dt) {
               << " has no outlet but would have to " << (sums[r] > 0 ? "lose " : "gain ")
               << std::abs(sums[r]) << " m^3/s (" << imbalance << " of what moves in it, allowed is "
               << largest_imbalance
-              << "); give it an outlet, or check its inlets and the bodies that seal it";
+              << "); give it an outlet, or check its inlets, the bodies that seal it and those "
+                 "that move "
+                 "into it";
       throw UserError(message.str());
     }
     largest = std::max(largest, imbalance);
@@ -201,10 +210,40 @@ void Projection::set_gradient(const Field& pressure) {
   fill_ghosts(domain_.decomposition, gradient_);
 }
 
+// A region without outlet gets what the bodies leave to it minus what they take in equal measure
+// back from the cells they sweep, when it is no more than an error of their discrete shape.
+double Projection::balance_swept_volume() {
+  if (!domain_.has_motion) return 0.0;
+  swept_ = domain_.swept;
+  Field moved(domain_.size());
+  if (!regions_.any_singular()) return 0.0;
+  for_each_cell(domain_.size(),
+                [&](int i, int j, int k) { moved(i, j, k) = std::abs(swept_(i, j, k)); });
+  std::vector<double> net, sum;
+  sum_per_region(net, domain_.decomposition, regions_, swept_);
+  sum_per_region(sum, domain_.decomposition, regions_, moved);
+  std::vector<double> share(net.size(), 0.0);
+  double largest = 0.0;
+  for (std::size_t r = 0; r < net.size(); ++r) {
+    if (regions_.regions[r].has_outlet || sum[r] == 0.0) continue;
+    const double imbalance = std::abs(net[r]) / sum[r];
+    if (imbalance > largest_swept_imbalance) continue;  // remove_means() will complain
+    share[r] = net[r] / sum[r];
+    largest = std::max(largest, imbalance);
+  }
+  std::size_t m = 0;
+  for_each_cell(domain_.size(), [&](int i, int j, int k) {
+    const int region = regions_.region_of_cell[m++];
+    if (region != GasRegions::none) swept_(i, j, k) -= share[region] * moved(i, j, k);
+  });
+  return largest;
+}
+
 Projection::Report Projection::solve(const FaceMedium& medium, const Field& old_void_fraction,
                                      const VectorField& velocity, double dt, Field& pressure) {
   Report report;
   set_coefficients(medium, dt);
+  report.swept_imbalance = balance_swept_volume();
   set_right_hand_side(medium, old_void_fraction, velocity, dt);
   report.removed_mean = remove_means(dt);
   add_outlets();
@@ -234,6 +273,7 @@ double Projection::divergence(const FaceMedium& medium, const Field& old_void_fr
     const std::ptrdiff_t n = old_void_fraction.index(i, j, k);
     const double open = domain_.open_share[n], eps = medium.cell_void_fraction[n];
     double change = open * (eps - old_void_fraction[n]);
+    if (domain_.has_motion) change -= dt * swept_[n] / domain_.cell_volume();
     for (int d = 0; d < 3; ++d) {
       const Field& area = domain_.walls.open_area[d];
       const auto flux = [&](std::ptrdiff_t face) {

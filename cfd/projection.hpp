@@ -14,11 +14,17 @@ class Projection {
  public:
   struct Report {
     PressureReport solve;
-    double removed_mean = 0.0;  // largest of the singular regions, relative to the 1-norm of the
-                                // right-hand side's terms
+    double removed_mean = 0.0;     // largest of the singular regions, relative to the 1-norm of the
+                                   // right-hand side's terms
+    double swept_imbalance = 0.0;  // largest of the singular regions: volume that moving bodies
+                                   // leave to it minus what they take, over the sum of both
   };
 
   Projection(const GasDomain& domain, const Numerics& numerics);
+
+  // Looks for the connected regions of gas; again after the walls of the domain changed.
+  // Collective.
+  void find_regions();
 
   // Solves for `pressure` (first guess in, ghosts filled out). `velocity` is u* with ghosts filled;
   // `old_void_fraction` is eps of the cells at the start of the step. Throws UserError when the
@@ -41,12 +47,12 @@ class Projection {
                     const VectorField& velocity, double dt) const;
 
  private:
-  void find_regions();
   void set_coefficients(const FaceMedium& medium, double dt);
   void set_right_hand_side(const FaceMedium& medium, const Field& old_void_fraction,
                            const VectorField& velocity, double dt);
   void add_outlets();
   double remove_means(double dt);
+  double balance_swept_volume();
   void remove_pressure_means(Field& pressure);
   void check(const PressureReport& report) const;
   void set_gradient(const Field& pressure);
@@ -60,6 +66,7 @@ class Projection {
   Field outlet_term_;  // coefficient times pressure of the outlets, m^3/s
   GasRegions regions_;
   std::vector<double> region_means_, region_sums_, region_norms_, region_volumes_;
+  Field swept_;  // volume that moving bodies leave to each cell, balanced, m^3/s
   VectorField gradient_;
 };
 

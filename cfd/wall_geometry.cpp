@@ -22,21 +22,17 @@ constexpr double sliver = 1e-9;  // open shares below count as closed, solid one
 class GeometryBuilder {
  public:
   GeometryBuilder(const Decomposition& decomposition, const SideConditions& sides,
-                  const std::vector<Body>& bodies)
+                  const std::vector<Body>& bodies, double time)
       : decomposition_(decomposition),
         sides_(sides),
         all_bodies_(bodies),
         size_(decomposition.block().size),
-        half_cell_(0.5 * decomposition.grid().spacing()) {
+        half_cell_(0.5 * decomposition.grid().spacing()),
+        time_(time) {
     for (const Body& body : bodies) {
       if (!body.acts_on_gas) continue;
-      if (body.motion.sweeps()) {
-        throw UserError("body '" + body.name +
-                        "' moves, but the gas knows resting shapes only; give it motion = "
-                        "{..., surface_only = true} or acts_on = [\"grains\"]");
-      }
       bodies_.push_back(&body);
-      shapes_.push_back(body.shape);
+      shapes_.push_back(shape_at(body, time));
     }
     walls_.has_bodies = !bodies_.empty();
   }
@@ -47,6 +43,7 @@ class GeometryBuilder {
     check_bodies_are_resolved();
     sample_cells();
     for (int d = 0; d < 3; ++d) sample_faces(d);
+    set_wall_velocities(walls_, decomposition_, all_bodies_, time_);
     close_faces_of_solid_cells();
     solidify_unresolved_cells();
     close_faces_of_solid_cells();
@@ -91,10 +88,12 @@ class GeometryBuilder {
   bool flux_is_prescribed(int d, int side, int i, int j, int k) const {
     return side >= 0 && type_of_face(d, side, i, j, k) != BoundaryType::outlet;
   }
-  const Body& nearest_body(const Vec3& x) const {
-    return **std::min_element(bodies_.begin(), bodies_.end(), [&](const Body* a, const Body* b) {
-      return a->shape->distance(x) < b->shape->distance(x);
-    });
+  // Index in the list of all bodies.
+  std::ptrdiff_t nearest_body(const Vec3& x) const {
+    const auto nearest = std::min_element(
+        shapes_.begin(), shapes_.end(),
+        [&](const Shape& a, const Shape& b) { return a->distance(x) < b->distance(x); });
+    return bodies_[nearest - shapes_.begin()] - all_bodies_.data();
   }
 
   const Decomposition& decomposition_;
@@ -102,6 +101,7 @@ class GeometryBuilder {
   const std::vector<Body>& all_bodies_;
   Index3 size_;
   Vec3 half_cell_;
+  double time_;                      // s
   std::vector<const Body*> bodies_;  // those that act on the gas
   std::vector<Shape> shapes_;
   Shape solid_;  // union of them
@@ -124,6 +124,7 @@ void GeometryBuilder::allocate() {
 
 void GeometryBuilder::check_bodies_reach_into_grid() const {
   for (const Body* body : bodies_) {
+    if (body->motion.sweeps()) continue;
     bool inside = false;
     for_each_cell(size_, [&](int i, int j, int k) {
       inside = inside || open_fraction(*body->shape, cell_centre(i, j, k), half_cell_) < 1 - sliver;
@@ -172,11 +173,7 @@ void GeometryBuilder::sample_faces(int d) {
       const DistanceSample sample = solid_->sample(centre);
       walls_.distance[d][n] = sample.distance;
       for (int e = 0; e < 3; ++e) walls_.normal[d][e][n] = sample.gradient[e];
-      const Body& body = nearest_body(centre);
-      walls_.nearest_body[d][n] = static_cast<double>(&body - all_bodies_.data());
-      // inside the body as it turns, outside as its surface does
-      const Vec3 surface = centre - std::max(sample.distance, 0.0) * sample.gradient;
-      walls_.wall_velocity[d][n] = surface_velocity_at(body, surface, 0.0)[d];
+      walls_.nearest_body[d][n] = static_cast<double>(nearest_body(centre));
     }
     walls_.open_area[d][n] = open < sliver ? 0.0 : open > 1 - sliver ? 1.0 : open;
   });
@@ -240,7 +237,7 @@ void GeometryBuilder::share_faces() {
 
 void GeometryBuilder::fill_all_ghosts() {
   for (VectorField* field : {&walls_.open_area, &walls_.takes_part, &walls_.distance,
-                             &walls_.wall_velocity, &walls_.lower_share, &walls_.upper_share}) {
+                             &walls_.lower_share, &walls_.upper_share}) {
     fill_ghosts(decomposition_, *field);
   }
   for (VectorField& normal : walls_.normal) fill_ghosts(decomposition_, normal);
@@ -273,8 +270,30 @@ void GeometryBuilder::choose_hosts() {
 }  // namespace
 
 WallGeometry make_wall_geometry(const Decomposition& decomposition, const SideConditions& sides,
-                                const std::vector<Body>& bodies) {
-  return GeometryBuilder(decomposition, sides, bodies).build();
+                                const std::vector<Body>& bodies, double time) {
+  return GeometryBuilder(decomposition, sides, bodies, time).build();
+}
+
+// Inside a body as it turns, outside as the surface next to the face does.
+void set_wall_velocities(WallGeometry& walls, const Decomposition& decomposition,
+                         const std::vector<Body>& bodies, double time) {
+  if (!walls.has_bodies) return;
+  const Grid& grid = decomposition.grid();
+  const Vec3 h = grid.spacing();
+  const Index3& first = decomposition.block().lower;
+  for (int d = 0; d < 3; ++d) {
+    for_each_face(decomposition, d, [&](int i, int j, int k) {
+      const std::ptrdiff_t n = walls.distance[d].index(i, j, k);
+      Vec3 steps(i + first[0] + 0.5, j + first[1] + 0.5, k + first[2] + 0.5);
+      steps[d] -= 0.5;
+      Vec3 place = grid.lower + steps.cwiseProduct(h);
+      const double distance = std::max(walls.distance[d][n], 0.0);
+      for (int e = 0; e < 3; ++e) place[e] -= distance * walls.normal[d][e][n];
+      const Body& body = bodies[static_cast<std::size_t>(walls.nearest_body[d][n])];
+      walls.wall_velocity[d][n] = surface_velocity_at(body, place, time)[d];
+    });
+  }
+  fill_ghosts(decomposition, walls.wall_velocity);
 }
 
 }  // namespace gasgrain::cfd

@@ -45,11 +45,15 @@ inline std::ptrdiff_t host_offset(const Field& field, double code) {
   return n % 2 == 0 ? -field.stride(n / 2) : field.stride(n / 2);
 }
 
-// Samples the bodies that act on the gas. A cell through whose faces no gas can move counts as
-// solid, and so does a group of connected cells that are all cut: no cell of it resolves the gas.
-// Throws UserError when a body does not reach into the grid (it acts on the gas and is nowhere
-// solid in it) or leaves no open cell.
+// Samples the bodies that act on the gas where they are at `time` [s]. A cell through whose faces
+// no gas can move counts as solid, and so does a group of connected cells that are all cut: no cell
+// of it resolves the gas. Throws UserError when a body that never moves does not reach into the
+// grid (it acts on the gas and is nowhere solid in it) or leaves no open cell.
 WallGeometry make_wall_geometry(const Decomposition& decomposition, const SideConditions& sides,
-                                const std::vector<Body>& bodies);
+                                const std::vector<Body>& bodies, double time = 0.0);
+
+// Sets the surface velocities anew for bodies that stay where they are.
+void set_wall_velocities(WallGeometry& walls, const Decomposition& decomposition,
+                         const std::vector<Body>& bodies, double time);
 
 }  // namespace gasgrain::cfd

@@ -47,9 +47,10 @@ double relative(double residual, double magnitude) {
 void add(cfd::MomentumBudget& sum, const cfd::MomentumBudget& budget) {
   using Row = Vec3 cfd::MomentumBudget::*;
   using Budget = cfd::MomentumBudget;
-  for (const Row row : {&Budget::stored, &Budget::pressure, &Budget::pressure_on_grains,
-                        &Budget::gravity, &Budget::convection, &Budget::viscous, &Budget::drag,
-                        &Budget::body, &Budget::side_pressure, &Budget::body_pressure, &Budget::body_stress}) {
+  for (const Row row :
+       {&Budget::stored, &Budget::pressure, &Budget::pressure_on_grains, &Budget::gravity,
+        &Budget::convection, &Budget::viscous, &Budget::drag, &Budget::body, &Budget::side_pressure,
+        &Budget::body_pressure, &Budget::body_stress}) {
     sum.*row += budget.*row;
   }
 }

@@ -52,19 +52,26 @@ GasCoupling::GasCoupling(const cfd::GasCase& gas_case, const CouplingOptions& op
       deposition_(gas_.decomposition(), gas_.walls()),
       transfer_(gas_.decomposition()),
       void_fraction_(gas_.decomposition().block().size, 1.0) {
-  const cfd::WallGeometry& walls = gas_.walls();
   for (int d = 0; d < 3; ++d) {
     velocity_[d] = cfd::Field(gas_.decomposition().block().size);
     pressure_gradient_[d] = cfd::Field(gas_.decomposition().block().size);
+  }
+  find_closed_cells();
+  if (options_.kernel_width > 0) {
+    kernel_width_ = options_.kernel_width;
+    deposition_.set_width(kernel_width_);
+  }
+}
+
+void GasCoupling::find_closed_cells() {
+  const cfd::WallGeometry& walls = gas_.walls();
+  for (int d = 0; d < 3; ++d) {
+    has_closed_cells_[d] = false;
     cfd::for_each_cell(void_fraction_.size(), [&](int i, int j, int k) {
       const double free =
           walls.lower_share[d](i, j, k) + walls.upper_share[d](i, j, k) + walls.host[d](i, j, k);
       if (free == 0 && deposition_.open_fraction()(i, j, k) > 0) has_closed_cells_[d] = true;
     });
-  }
-  if (options_.kernel_width > 0) {
-    kernel_width_ = options_.kernel_width;
-    deposition_.set_width(kernel_width_);
   }
 }
 
@@ -86,6 +93,7 @@ ExchangeReport GasCoupling::begin(std::span<Vec3> forces, std::span<const GrainR
 ExchangeReport GasCoupling::exchange(std::span<Vec3> forces, std::span<const GrainRecord> grains,
                                      double interval) {
   report_ = {};
+  move_bodies(interval);
   send_grains_to_gas_ranks(grains);
   deposit_void_fraction();
   evaluate_drag();
@@ -95,6 +103,14 @@ ExchangeReport GasCoupling::exchange(std::span<Vec3> forces, std::span<const Gra
   transfer_.return_to_senders(forces, forces_);
   measure(interval);
   return report_;
+}
+
+// To where they are at the end of the interval, as the grains are. The gas's steps within it keep
+// them there, so that the void fractions at both ends are per the same open volume.
+void GasCoupling::move_bodies(double interval) {
+  if (!gas_.move_bodies(gas_.time() + interval)) return;
+  deposition_.set_walls(gas_.walls());
+  find_closed_cells();
 }
 
 void GasCoupling::send_grains_to_gas_ranks(std::span<const GrainRecord> grains) {

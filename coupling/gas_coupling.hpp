@@ -34,6 +34,8 @@ class GasCoupling {
   double kernel_width() const { return kernel_width_; }               // m
 
  private:
+  void move_bodies(double interval);
+  void find_closed_cells();
   void send_grains_to_gas_ranks(std::span<const GrainRecord> grains);
   void deposit_void_fraction();
   void gather_sauter_diameters();

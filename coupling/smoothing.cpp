@@ -57,10 +57,13 @@ SmoothingPlan plan_smoothing(const cfd::Grid& grid, double width) {
 }
 
 Smoothing::Smoothing(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls)
-    : decomposition_(decomposition),
-      open_fraction_(connected_open_fraction(decomposition, walls)),
-      inverse_open_fraction_(decomposition.block().size) {
-  const cfd::Index3 size = decomposition.block().size;
+    : decomposition_(decomposition), inverse_open_fraction_(decomposition.block().size) {
+  set_walls(walls);
+}
+
+void Smoothing::set_walls(const cfd::WallGeometry& walls) {
+  open_fraction_ = connected_open_fraction(decomposition_, walls);
+  const cfd::Index3 size = decomposition_.block().size;
   cfd::for_each_cell(size, [&](int i, int j, int k) {
     const double open = open_fraction_(i, j, k);
     inverse_open_fraction_(i, j, k) = open > 0 ? 1.0 / open : 0.0;
@@ -78,7 +81,7 @@ Smoothing::Smoothing(const cfd::Decomposition& decomposition, const cfd::WallGeo
     });
   }
   conductance_ = passage_;
-  set_plan({});
+  set_plan(plan_);
 }
 
 void Smoothing::set_plan(const SmoothingPlan& plan) {

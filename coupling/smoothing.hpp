@@ -25,6 +25,9 @@ class Smoothing {
   // Keeps a reference to `decomposition`.
   Smoothing(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls);
 
+  // After the walls moved; keeps the plan.
+  void set_walls(const cfd::WallGeometry& walls);
+
   void set_plan(const SmoothingPlan& plan);
   const SmoothingPlan& plan() const { return plan_; }
 

@@ -22,6 +22,9 @@ class Deposition {
   // Keeps a reference to `decomposition`.
   Deposition(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls);
 
+  // After the walls moved; to be followed by locate().
+  void set_walls(const cfd::WallGeometry& walls) { smoothing_.set_walls(walls); }
+
   // Standard deviation of the kernel, m; see plan_smoothing().
   void set_width(double width);
   const SmoothingPlan& plan() const { return smoothing_.plan(); }
