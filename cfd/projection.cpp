@@ -26,7 +26,7 @@ namespace {
 
 constexpr double largest_imbalance = 1e-12;  // of a sealed region, relative to its terms
 constexpr double largest_swept_imbalance = 0.1;
-constexpr double round_off_margin = 8.0;     // in units of the evaluation's own round-off
+constexpr double round_off_margin = 8.0;  // in units of the evaluation's own round-off
 
 // 1 / (rho (1 + K)) * dt = dt / (rho + dt B / eps), the velocity that a unit gradient removes.
 double mobility(const FaceMedium& medium, double density, double dt, int d, std::ptrdiff_t n) {
