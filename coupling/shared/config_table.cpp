@@ -1,5 +1,6 @@
 #include "coupling/shared/config_table.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,47 @@
 #include "coupling/shared/error.hpp"
 
 namespace gasgrain {
+
+namespace {
+
+std::string value_text(const toml::node& node) {
+  if (const toml::array* array = node.as_array()) {
+    std::string list;
+    for (const toml::node& item : *array) list += (list.empty() ? "" : ", ") + value_text(item);
+    return "[" + list + "]";
+  }
+  if (node.is_number()) {
+    std::array<char, 32> number{};
+    return {number.data(),
+            std::to_chars(number.begin(), number.end(), *node.value<double>()).ptr};
+  }
+  if (node.is_boolean()) return *node.value<bool>() ? "true" : "false";
+  if (node.is_string()) return '"' + *node.value<std::string>() + '"';
+  std::ostringstream out;  // dates and times
+  node.visit([&](const auto& value) { out << value; });
+  return out.str();
+}
+
+bool holds_tables(const toml::array& array) {
+  return !array.empty() && array.front().is_table();
+}
+
+void add_statements(std::vector<ConfigStatement>& statements, const toml::node& node,
+                    const std::string& key) {
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [name, value] : *table) {
+      add_statements(statements, value, key + (key.empty() ? "" : ".") + std::string(name.str()));
+    }
+  } else if (const toml::array* array = node.as_array(); array && holds_tables(*array)) {
+    for (std::size_t n = 0; n < array->size(); ++n) {
+      add_statements(statements, (*array)[n], key + "[" + std::to_string(n + 1) + "]");
+    }
+  } else {
+    statements.push_back({key, value_text(node)});
+  }
+}
+
+}  // namespace
 
 bool Range::contains(double value) const {
   const bool above = lower_open ? value > lower : value >= lower;
@@ -264,6 +306,14 @@ std::vector<std::string> ConfigTable::keys() const {
   if (node_->table) {
     for (const auto& [key, value] : *node_->table) result.emplace_back(key.str());
   }
+  return result;
+}
+
+std::vector<ConfigStatement> ConfigTable::statements() const {
+  std::vector<ConfigStatement> result;
+  const std::string path =
+      node_->path.empty() ? "" : node_->path.substr(0, node_->path.size() - 1);
+  if (node_->table) add_statements(result, *node_->table, path);
   return result;
 }
 

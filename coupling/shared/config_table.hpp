@@ -28,6 +28,14 @@ struct Range {
   std::string text() const;  // "in (0, 1]"
 };
 
+// A key with its full path and its value as text: {"body[1].sphere.radius", "0.1"}.
+struct ConfigStatement {
+  std::string key;
+  std::string value;
+
+  bool operator==(const ConfigStatement&) const = default;
+};
+
 class ConfigTable {
  public:
   // Parses a TOML text; `file` is the name that error messages give. Throws UserError.
@@ -66,6 +74,10 @@ class ConfigTable {
   std::vector<ConfigTable> tables(const std::string& key) const;
 
   std::vector<std::string> keys() const;
+
+  // All that the table and those below it say, ordered by key; 1 and 1.0 are the same text. Marks
+  // nothing as known.
+  std::vector<ConfigStatement> statements() const;
 
   // Throws UserError for the first key that was not asked for so far.
   void reject_unknown_keys() const;

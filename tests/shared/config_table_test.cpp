@@ -141,5 +141,20 @@ TEST(ConfigTable, ResolvesPathsFromTheCaseFile) {
   EXPECT_EQ(table.resolve_path("/data/x.h5"), "/data/x.h5");
 }
 
+TEST(ConfigTable, statements_are_all_that_a_file_says_under_their_full_keys) {
+  const ConfigTable file = parse(
+      "[run]\nend = 1\nstep = 0.1\n"
+      "[[body]]\nname = 'a'\nsphere = {radius = 2.0, center = [1, 2.5, 3]}\n"
+      "[[body]]\nname = 'b'\nfixed = true\n");
+  const std::vector<ConfigStatement> expected{
+      {"body[1].name", "\"a\""},          {"body[1].sphere.center", "[1, 2.5, 3]"},
+      {"body[1].sphere.radius", "2"},     {"body[2].fixed", "true"},
+      {"body[2].name", "\"b\""},          {"run.end", "1"},
+      {"run.step", "0.1"}};
+  EXPECT_EQ(file.statements(), expected);
+  EXPECT_EQ(file.table("run").statements().front().key, "run.end");
+  EXPECT_TRUE(file.table_or_empty("absent").statements().empty());
+}
+
 }  // namespace
 }  // namespace gasgrain
