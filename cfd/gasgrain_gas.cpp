@@ -7,12 +7,13 @@
 #include <optional>
 #include <sstream>
 
-#include "coupling/files/collective_error.hpp"
 #include "cfd/gas_run.hpp"
+#include "coupling/files/collective_error.hpp"
 
 namespace {
 
 using gasgrain::ConfigTable;
+using gasgrain::run_collectively;
 using gasgrain::UserError;
 using namespace gasgrain::cfd;
 
