@@ -107,10 +107,16 @@ FixedBed read_fixed_bed(const ConfigTable& file, const Grid& grid) {
 }
 
 RunControl read_run(const ConfigTable& table) {
-  expect_only(table, {"end_time", "step"});
+  expect_only(table, {"end_time", "step", "checkpoint_interval", "restart"});
   RunControl run;
   run.end_time = table.number_or("end_time", run.end_time, Range::non_negative());
   run.step = table.number_or("step", run.step, Range::non_negative());
+  run.checkpoint_interval =
+      table.number_or("checkpoint_interval", run.checkpoint_interval, Range::non_negative());
+  run.restart = table.text_or("restart", run.restart);
+  if (!run.restart.empty() && run.restart != latest_checkpoint) {
+    run.restart = table.resolve_path(run.restart);
+  }
   return run;
 }
 
@@ -142,6 +148,7 @@ GasCase read_gas_case(const ConfigTable& file) {
   result.fixed_bed = read_fixed_bed(file, result.grid);
   result.run = read_run(file.table_or_empty("run"));
   result.output = read_output(file.table_or_empty("output"));
+  result.statements = file.statements();
   return result;
 }
 

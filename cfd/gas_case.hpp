@@ -46,9 +46,14 @@ struct FixedBed {
   std::string drag = "gidaspow";                    // closure name, see coupling/shared/drag.hpp
 };
 
-struct RunControl {       // stand-alone solver
-  double end_time = 0.0;  // s
-  double step = 0.0;      // s; 0 = from the limits
+// The value of `restart` that stands for the newest checkpoint of the output directory.
+inline constexpr const char* latest_checkpoint = "latest";
+
+struct RunControl {                  // stand-alone solver
+  double end_time = 0.0;             // s
+  double step = 0.0;                 // s; 0 = from the limits
+  double checkpoint_interval = 0.0;  // s of simulated time; 0 = none but when it is stopped
+  std::string restart;  // checkpoint to continue from: a path, "latest" or "" (start anew)
 };
 
 struct Output {
@@ -67,6 +72,7 @@ struct GasCase {
   FixedBed fixed_bed;
   RunControl run;
   Output output;
+  std::vector<ConfigStatement> statements;  // all that the case file says; empty without a file
 };
 
 // Reads the sections grid, gas, boundary, body, numerics, initial, fixed_bed, run and output, and

@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "cfd/body_loads.hpp"
 #include "cfd/convection.hpp"
@@ -39,6 +40,7 @@
 #include "cfd/momentum_budget.hpp"
 #include "cfd/moving_walls.hpp"
 #include "cfd/projection.hpp"
+#include "cfd/solve_failure.hpp"
 #include "cfd/time_step.hpp"
 #include "cfd/viscous_stress.hpp"
 #include "coupling/shared/error.hpp"
@@ -55,6 +57,18 @@ struct Slope {
   VectorField total;
   Vec3 convection = Vec3::Zero();
   Vec3 viscous = Vec3::Zero();
+};
+
+// Wall time since the last call.
+class Stopwatch {
+ public:
+  double lap() {
+    const double before = std::exchange(now_, MPI_Wtime());
+    return now_ - before;
+  }
+
+ private:
+  double now_ = MPI_Wtime();
 };
 
 VectorField fields(const Index3& size) {
@@ -217,7 +231,7 @@ void GasSolver::State::check_finite(double dt, double speed_before) const {
   message << "the gas velocity is no longer finite at t = " << time << " s after a step of " << dt
           << " s; the largest velocity before it was " << speed_before
           << " m/s. Take a smaller step, or look for grains or inlets that drive it";
-  throw UserError(message.str());
+  throw SolveFailure(message.str());
 }
 
 void GasSolver::State::visit(StateArchive& archive) {
@@ -269,6 +283,7 @@ StepReport GasSolver::advance(double dt) {
   State& s = *state_;
   const GasDomain& domain = s.domain;
   GASGRAIN_ASSERT(dt > 0.0 && std::isfinite(dt));
+  Stopwatch stopwatch;
   StepReport report;
   MomentumBudget& budget = report.momentum;
   const AdamsBashforth weights = adams_bashforth(dt, s.previous_dt);
@@ -285,6 +300,7 @@ StepReport GasSolver::advance(double dt) {
 
   s.domain.sides.set_time(s.time + dt);
   s.predict(dt, weights);
+  report.times.predictor = stopwatch.lap();
   set_solid_faces(s.velocity, domain);
   fill_velocity_ghosts(domain, s.medium, s.velocity);
   if (domain.walls.has_bodies) {
@@ -292,9 +308,11 @@ StepReport GasSolver::advance(double dt) {
     fill_velocity_ghosts(domain, s.medium, s.velocity);
   }
   s.check_finite(dt, speed_before);
+  report.times.boundary = stopwatch.lap();
 
   const Projection::Report projected =
       s.projection.solve(s.medium, old_void_fraction, s.velocity, dt, s.pressure);
+  report.times.pressure = stopwatch.lap();
   s.projection.correct(s.velocity, s.medium, dt);
   fill_velocity_ghosts(domain, s.medium, s.velocity);
   s.time += dt;
@@ -318,6 +336,7 @@ StepReport GasSolver::advance(double dt) {
   add_pressure_reactions(budget, domain, s.pressure, s.projection.pressure_gradient(), dt);
   sum_over_ranks(domain.decomposition, budget);
   if (s.means.started()) s.means.add(s.medium, s.velocity, s.projection.pressure_gradient(), dt);
+  report.times.correction = stopwatch.lap();
   return report;
 }
 

@@ -20,6 +20,7 @@ using namespace gasgrain::cfd;
 struct Options {
   std::string case_file;
   std::string directory;  // "" = as the case says
+  std::string restart;    // a path, "latest" or "" = as the case says
 };
 
 int rank_of_world() {
@@ -36,6 +37,12 @@ std::optional<Options> parse(int argc, char** argv, int& code) {
       "in docs/case_file.md.");
   app.add_option("CASE.toml", options.case_file, "gas case file")->required();
   app.add_option("--out", options.directory, "directory for files, instead of output.directory");
+  app.add_option("--restart", options.restart,
+                 "continue from this checkpoint, instead of run.restart; 'latest': the newest of "
+                 "the output directory");
+  app.footer(
+      "Exit code: 0 finished, 1 error (the message says what to do), 75 stopped by SIGTERM, SIGINT "
+      "or SIGUSR1 with a checkpoint; continue with --restart latest.");
   app.set_version_flag("--version", "gasgrain-gas " GASGRAIN_VERSION);
   try {
     app.parse(argc, argv);
@@ -51,7 +58,9 @@ std::optional<Options> parse(int argc, char** argv, int& code) {
   return options;
 }
 
-void run_case(const Options& options) {
+constexpr int stopped_code = 75;  // EX_TEMPFAIL of sysexits.h: try again later
+
+int run_case(const Options& options) {
   GasCase gas_case;
   gasgrain::run_collectively(MPI_COMM_WORLD, [&] {
     const ConfigTable file = ConfigTable::parse_file(options.case_file);
@@ -59,12 +68,13 @@ void run_case(const Options& options) {
     file.reject_unknown_keys();
   });
   if (!options.directory.empty()) gas_case.output.directory = options.directory;
-  GasRun(gas_case, MPI_COMM_WORLD).run();
+  if (!options.restart.empty()) gas_case.run.restart = options.restart;
+  return GasRun(gas_case, MPI_COMM_WORLD).run() == RunOutcome::finished ? 0 : stopped_code;
 }
 
 int run_program(int argc, char** argv) {
   int code = 0;
-  if (const std::optional<Options> options = parse(argc, argv, code)) run_case(*options);
+  if (const std::optional<Options> options = parse(argc, argv, code)) code = run_case(*options);
   return code;
 }
 

@@ -18,6 +18,7 @@
 #include <sstream>
 
 #include "cfd/halo_exchange.hpp"
+#include "cfd/solve_failure.hpp"
 #include "coupling/shared/error.hpp"
 
 namespace gasgrain::cfd {
@@ -186,7 +187,7 @@ void Projection::check(const PressureReport& report) const {
           << (report.fallbacks > 0 ? ", the fallback's included" : "")
           << "; raise numerics.pressure_iterations (now " << max_iterations_
           << "), take a smaller step or allow a larger residual";
-  throw UserError(message.str());
+  throw SolveFailure(message.str());
 }
 
 void Projection::set_gradient(const Field& pressure) {

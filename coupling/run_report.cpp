@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <limits>
+
+#include "coupling/shared/text.hpp"
 
 namespace gasgrain::coupling {
 
@@ -16,14 +16,6 @@ std::string percent_shares(const WallTimes& times) {
               times.coupling * percent, times.gas * percent);
 }
 
-std::string duration(double seconds) {
-  if (!std::isfinite(seconds)) return "?";
-  const long s = std::lround(seconds);
-  if (s < 60) return text("%ld s", s);
-  if (s < 3600) return text("%ld min %02ld s", s / 60, s % 60);
-  return text("%ld h %02ld min", s / 3600, s / 60 % 60);
-}
-
 std::string with_interval(const TimeMean& mean, double scale, const char* unit) {
   if (std::isnan(mean.value)) return "not reached: the run ended before coupling.average_from";
   std::string result = text("%.4g", mean.value * scale);
@@ -32,17 +24,6 @@ std::string with_interval(const TimeMean& mean, double scale, const char* unit) 
 }
 
 }  // namespace
-
-std::string text(const char* format, ...) {
-  va_list arguments, again;
-  va_start(arguments, format);
-  va_copy(again, arguments);
-  std::string result(std::vsnprintf(nullptr, 0, format, arguments), '\0');
-  std::vsnprintf(result.data(), result.size() + 1, format, again);
-  va_end(again);
-  va_end(arguments);
-  return result;
-}
 
 BedMeans bed_means(const RunStatistics& statistics, const BedMonitor& monitor, double from) {
   BedMeans means;

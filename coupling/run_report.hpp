@@ -9,9 +9,6 @@
 
 namespace gasgrain::coupling {
 
-// printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...);
-
 // Time means of the bed and what they are compared with.
 struct BedMeans {
   double from = 0.0, to = 0.0;     // s of gas time

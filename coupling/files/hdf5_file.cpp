@@ -248,6 +248,7 @@ void Hdf5File::write(const std::string& dataset, const ArrayBlock& block, const 
   H5Pset_create_intermediate_group(link, 1);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);  // every value is written
+  H5Pset_obj_track_times(creation, false);          // same data, same bytes
   const Selection selection(block, access_ == Access::collective);
   const Handle set(H5Dcreate2(id_, dataset.c_str(), memory_type<T>(), selection.file, link,
                               creation, H5P_DEFAULT),
@@ -264,9 +265,10 @@ void Hdf5File::write_text(const std::string& dataset, const std::string& text) {
   const QuietErrors quiet;
   const Handle type = text_type(text.size() + 1);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, false);
   const Handle set(
-      H5Dcreate2(id_, dataset.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-      H5Dclose);
+      H5Dcreate2(id_, dataset.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
   if (!set.valid() || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) < 0) {
     fail("write text '" + dataset + "'");
   }

@@ -4,6 +4,7 @@ Usage: gasgrain_gas_test.py GASGRAIN_GAS MPIEXEC
 """
 
 import csv
+import json
 import os
 import subprocess
 import sys
@@ -54,14 +55,20 @@ def good_run_writes_its_files(program, directory):
     check(result.returncode == 0, result.stderr)
     out = os.path.join(directory, "out")
     files = sorted(os.listdir(out))
-    check(files == ["gas.csv", "gas.xdmf"] + ["gas_%06d.h5" % n for n in range(3)], str(files))
+    check(files == sorted(["gas.csv", "gas.xdmf", "summary.json"] +
+                           ["gas_%06d.h5" % n for n in range(3)]), str(files))
     with open(os.path.join(out, "gas.csv")) as file:
         rows = list(csv.DictReader(file))
     check(len(rows) == 10, "%d rows" % len(rows))
     drop = float(rows[-1]["z_lower_pressure_Pa"]) - float(rows[-1]["z_upper_pressure_Pa"])
     check(abs(drop - 115.09) < 0.005 * 115.09, "pressure drop %g Pa" % drop)
     check(abs(float(rows[-1]["time_s"]) - 1e-3) < 1e-15, rows[-1]["time_s"])
-    check("remaining" in result.stdout and "z_lower" in result.stdout, result.stdout)
+    check("time left" in result.stdout and "z_lower" in result.stdout, result.stdout)
+    with open(os.path.join(out, "summary.json")) as file:
+        quantities = {q["name"]: q["value"] for q in json.load(file)["quantities"]}
+    check(quantities["steps"] == 10, str(quantities))
+    check(abs(quantities["z_lower_pressure"] - float(rows[-1]["z_lower_pressure_Pa"])) < 1e-6,
+          str(quantities))
 
 
 BAD = [
@@ -71,6 +78,8 @@ BAD = [
     ("a body outside", ("[run]", "[[body]]\nname = 'far'\nsphere = {center = [9, 9, 9], "
                         "radius = 1}\n[run]"), "body 'far'"),
     ("no outlet", ('{type = "outlet"}', '{type = "slip"}'), "has no outlet"),
+    ("checkpoints without a place", ("end_time = 1e-3", "end_time = 1e-3\ncheckpoint_interval = -1"),
+     "run.checkpoint_interval: is -1"),
     ("not TOML", ("[gas]", "[gas"), "not valid TOML"),
 ]
 
@@ -86,6 +95,28 @@ def bad_runs_say_why_once(program, directory):
     check(result.returncode != 0 and "fewer ranks" in result.stderr, result.stderr)
 
 
+# case, replacements, what the message must say
+FAILING = [
+    ("[numerics]\npressure_iterations = 1\npressure_tolerance = 1e-12\n"
+     "pressure_fallback = \"none\"\n",
+     ["step 1 from 0 s, dt = ", "the pressure equation is not solved", "in cell (",
+      "likely cause"]),
+    ("[initial]\nvelocity = [0, 0, 1e12]\n",
+     ["the step had to fall to", "velocity z = 1e+12 in cell (0, 0, 1) at (0.001, 0.001, 0.0018) m",
+      "initial.velocity"]),
+]
+
+
+def failing_steps_name_step_cell_field_and_cause(program, directory):
+    for text, expected in FAILING:
+        for ranks in (1, 2):
+            result = run(program, directory, CASE + text, ranks)
+            check(result.returncode == 1, result.stdout)
+            check(result.stderr.count("gasgrain-gas: error:") == 1, result.stderr)
+            for part in expected:
+                check(part in result.stderr, "'%s' is not in: %s" % (part, result.stderr))
+
+
 def a_missing_file_is_an_error(program, directory):
     result = subprocess.run([program[0], os.path.join(directory, "nope.toml")],
                             capture_output=True, text=True, timeout=60)
@@ -94,7 +125,8 @@ def a_missing_file_is_an_error(program, directory):
 
 def main():
     program = (sys.argv[1], sys.argv[2])
-    for test in (good_run_writes_its_files, bad_runs_say_why_once, a_missing_file_is_an_error):
+    for test in (good_run_writes_its_files, bad_runs_say_why_once,
+                 failing_steps_name_step_cell_field_and_cause, a_missing_file_is_an_error):
         with tempfile.TemporaryDirectory() as directory:
             test(program, directory)
         print("ok", test.__name__)
