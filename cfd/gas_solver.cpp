@@ -241,6 +241,7 @@ void GasSolver::State::visit(StateArchive& archive) {
   archive.number("walls_time", walls_time);
   if (archive.restores() && domain.has_motion) {
     domain.move_to(walls_time);
+    medium.edges = make_edge_void_fraction(domain);
     find_walls();
   }
   archive.faces("velocity", velocity);

@@ -38,6 +38,14 @@ GasCase sealed_vessel() {
   return c;
 }
 
+GasCase stirred_vessel() {
+  GasCase c = open_vessel();
+  c.bodies = bodies(
+      "[[body]]\nname='ball'\nsphere={center=[0.6,0.3,0.6],radius=0.2}\n"
+      "motion={oscillate={amplitude=[0.1,0.05,0.02],period=0.05}}\n");
+  return c;
+}
+
 struct Scene {
   const char* name;
   GasCase gas_case;
@@ -47,7 +55,8 @@ struct Scene {
 std::vector<Scene> scenes() {
   return {{"open_with_grains", open_vessel(), true},
           {"open", open_vessel(), false},
-          {"sealed_with_grains", sealed_vessel(), true}};
+          {"sealed_with_grains", sealed_vessel(), true},
+          {"moving_body", stirred_vessel(), false}};
 }
 
 // Steps of different length, so that the weights of the old slope matter.
