@@ -166,12 +166,13 @@ def draw_cylinder():
         return
     rows = [r for r in read_result(steady)[1] if r["quantity"] == "drag coefficient"]
     cells = [float(row["grid"].split()[1]) for row in rows]
-    errors = [abs(float(row["value"]) / float(row["reference"]) - 1) for row in rows]
+    errors = [100 * abs(float(row["value"]) / float(row["reference"]) - 1) for row in rows]
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), constrained_layout=True)
     left.loglog(cells, errors, "o-", label="Re 20 (2D-1)")
     left.loglog(cells, [errors[0] * (cells[0] / c) ** 2 for c in cells], "k--", label="order 2")
-    left.set(xlabel="cells per diameter", ylabel="error of the drag coefficient")
+    left.set(xlabel="cells per diameter", ylabel="error of the drag coefficient (%)")
     left.set_xticks(cells, [f"{c:.0f}" for c in cells])
+    left.set_yticks([0.2, 0.5, 1, 2, 5], ["0.2", "0.5", "1", "2", "5"])
     left.minorticks_off()
     left.legend()
     if trace.exists():
@@ -180,6 +181,8 @@ def draw_cylinder():
         right.plot(run["time"], run["lift"], label="lift")
         right.set(xlabel="time (s)", ylabel="coefficient", title="Re 100 (2D-2)")
         right.legend()
+    else:
+        right.set_visible(False)
     figure.savefig(DOCS / "verification_cylinder.png", dpi=110)
 
 
