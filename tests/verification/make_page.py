@@ -179,7 +179,7 @@ def draw_cylinder():
         run = columns_of(trace)
         right.plot(run["time"], run["drag"], label="drag")
         right.plot(run["time"], run["lift"], label="lift")
-        right.set(xlabel="time (s)", ylabel="coefficient", title="Re 100 (2D-2)")
+        right.set(xlabel="time (s)", ylabel="coefficient", title="Re 100 (2D-2), 20 cells per diameter")
         right.legend()
     else:
         right.set_visible(False)
