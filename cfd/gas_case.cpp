@@ -132,7 +132,7 @@ Output read_output(const ConfigTable& table) {
 
 GasCase read_gas_case(const ConfigTable& file) {
   for (const char* key : {"grid", "gas", "boundary", "body", "numerics", "initial", "fixed_bed",
-                          "run", "output", "coupling", "grains"}) {
+                          "run", "output", "probe", "coupling", "grains"}) {
     file.has(key);
   }
   file.reject_unknown_keys();
@@ -148,6 +148,7 @@ GasCase read_gas_case(const ConfigTable& file) {
   result.fixed_bed = read_fixed_bed(file, result.grid);
   result.run = read_run(file.table_or_empty("run"));
   result.output = read_output(file.table_or_empty("output"));
+  result.probes = read_probes(file, result.grid, result.bodies);
   result.statements = file.statements();
   return result;
 }

@@ -8,6 +8,7 @@
 #include "cfd/boundary.hpp"
 #include "cfd/grid.hpp"
 #include "cfd/pressure_method.hpp"
+#include "cfd/probe_case.hpp"
 #include "coupling/shared/body.hpp"
 #include "coupling/shared/config_table.hpp"
 
@@ -72,6 +73,7 @@ struct GasCase {
   FixedBed fixed_bed;
   RunControl run;
   Output output;
+  std::vector<ProbeSettings> probes;
   std::vector<ConfigStatement> statements;  // all that the case file says; empty without a file
 };
 

@@ -45,6 +45,9 @@ GasRun::GasRun(const GasCase& gas_case, MPI_Comm communicator)
   } else if (gas_case.run.checkpoint_interval > 0.0) {
     throw UserError(
         "run.checkpoint_interval needs a directory; give output.directory or the option --out");
+  } else if (!gas_case.probes.empty()) {
+    throw UserError("[[probe]] '" + gas_case.probes.front().name +
+                    "' needs a directory; give output.directory or the option --out");
   }
   if (!gas_case.run.restart.empty()) restart();
   if (checkpoints_) open_files();
@@ -88,6 +91,7 @@ void GasRun::open_files() {
   frames_.emplace(solver_.decomposition().communicator(), directory, "gas",
                   restarted_at_ ? Series::resume : Series::start_new);
   series_.emplace((std::filesystem::path(directory) / "gas.csv").string(), solver_, restarted_at_);
+  if (!case_.probes.empty()) probes_.emplace(case_.probes, directory, solver_, restarted_at_);
 }
 
 RunOutcome GasRun::run() {
@@ -179,6 +183,7 @@ void GasRun::record(const StepReport& report, double dt) {
   if (case_.run.step > 0.0 && dt < case_.run.step && !at_end()) ++counters_.shortened;
   display_.count(report);
   if (series_) series_->write(solver_, report, dt);
+  if (probes_) probes_->write(solver_);
 }
 
 void GasRun::write_frame_if_due() {
@@ -189,7 +194,11 @@ void GasRun::write_frame_if_due() {
 }
 
 void GasRun::flush_series() {
-  if (series_) run_collectively(solver_.decomposition().communicator(), [&] { series_->flush(); });
+  if (!series_) return;
+  run_collectively(solver_.decomposition().communicator(), [&] {
+    series_->flush();
+    if (probes_) probes_->flush();
+  });
 }
 
 // A signal may have reached some ranks only.

@@ -11,6 +11,7 @@
 #include "cfd/fixed_bed.hpp"
 #include "cfd/gas_checkpoint.hpp"
 #include "cfd/gas_solver.hpp"
+#include "cfd/probes.hpp"
 #include "cfd/run_display.hpp"
 #include "cfd/time_series.hpp"
 #include "coupling/files/checkpoint_files.hpp"
@@ -60,6 +61,7 @@ class GasRun {
   std::vector<std::string> notes_;      // what the user should know before the first step
   std::optional<FrameWriter> frames_;
   std::optional<TimeSeries> series_;
+  std::optional<Probes> probes_;
   Schedule frame_schedule_, checkpoint_schedule_, progress_schedule_;
   StateCopy good_state_;
   long good_step_ = 0;   // the number of steps done in it

@@ -452,19 +452,24 @@ double GasSolver::side_open_area(int direction, int side) const {
 }
 
 double GasSolver::side_flux(int direction, int side) const {
+  const int cells = decomposition().grid().cells[direction];
+  return sum_over_ranks(decomposition(), plane_flux(direction, side == 0 ? 0 : cells));
+}
+
+double GasSolver::plane_flux(int direction, int plane) const {
   const GasDomain& domain = state_->domain;
-  const int plane = domain.side_plane(direction, side);
+  const Index3& cells = domain.decomposition.grid().cells;
+  const bool joined = domain.is_periodic(direction) && plane == cells[direction];
+  const int local = (joined ? 0 : plane) - domain.decomposition.block().lower[direction];
+  if (local < 0 || local >= owned_faces(domain.decomposition, direction)[direction]) return 0.0;
   double flux = 0.0;
-  // the block whose first or last cell is at the side
-  if (plane == (side == 0 ? 0 : domain.size()[direction])) {
-    for_each_in(plane_of(domain, direction, plane), [&](int i, int j, int k) {
-      const std::ptrdiff_t n = domain.open_share.index(i, j, k);
-      flux += domain.walls.open_area[direction][n] *
-              face_void_fraction(state_->medium, direction, n) * state_->velocity[direction][n] *
-              domain.face_area(direction);
-    });
-  }
-  return sum_over_ranks(domain.decomposition, flux);
+  for_each_in(plane_of(domain, direction, local), [&](int i, int j, int k) {
+    const std::ptrdiff_t n = domain.open_share.index(i, j, k);
+    flux += domain.walls.open_area[direction][n] *
+            face_void_fraction(state_->medium, direction, n) * state_->velocity[direction][n] *
+            domain.face_area(direction);
+  });
+  return flux;
 }
 
 }  // namespace gasgrain::cfd

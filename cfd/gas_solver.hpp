@@ -132,6 +132,9 @@ class GasSolver {
   double side_pressure(int direction, int side) const;
   double side_open_area(int direction, int side) const;  // m^2 that no body covers
   double side_flux(int direction, int side) const;       // m^3/s of gas, positive along +direction
+  // The same through a plane of faces (0 to the number of cells along the direction), of this
+  // rank's faces only.
+  double plane_flux(int direction, int plane) const;
 
  private:
   struct State;

@@ -36,6 +36,9 @@ CoupledRun::Case CoupledRun::read_case(const std::string& case_file) {
   if (settings.gas.fixed_bed.present) {
     file.fail("fixed_bed", "cannot be combined with grains; remove it or use gasgrain-gas");
   }
+  if (!settings.gas.probes.empty()) {
+    file.fail("probe", "is for gasgrain-gas; remove the probes, timeseries.csv has the bed's values");
+  }
   return settings;
 }
 

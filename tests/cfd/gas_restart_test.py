@@ -36,6 +36,19 @@ cylinder = {point = [0.015, 0, 0.03], axis = [0, 1, 0], radius = 0.005}
 void_fraction = 0.5
 diameter = 1e-3
 upper = [0.032, 0.016, 0.012]
+[[probe]]
+name = "wake"
+point = [0.015, 0.008, 0.04]
+[[probe]]
+name = "axis"
+interval = 0.01
+line = {from = [0.016, 0.008, 0], to = [0.016, 0.008, 0.048], samples = 7}
+[[probe]]
+name = "above"
+plane = {direction = "z", position = 0.02}
+[[probe]]
+name = "drag"
+body = "tube"
 [run]
 end_time = 0.25
 checkpoint_interval = 0.025
