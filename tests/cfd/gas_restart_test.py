@@ -76,7 +76,7 @@ class Program:
 
     def run(self, *args, **kwargs):
         return subprocess.run(self.command(*args, **kwargs), capture_output=True, text=True,
-                              timeout=120)
+                              timeout=250)
 
     def start(self, *args, **kwargs):
         return subprocess.Popen(self.command(*args, **kwargs), stdout=subprocess.PIPE,
@@ -191,6 +191,25 @@ def continues_on_another_number_of_ranks(program):
             check(abs(a - b) < 1e-7 * abs(a), "%s: %.17g on one rank, %.17g on three" % (key, a, b))
 
 
+def a_failed_step_leaves_the_last_good_state(program):
+    """The table of the inlet ends half-way: with its rest the run goes on as if it had been there."""
+    inlet = "superficial_velocity = 0.3"
+    ramp = ", time_table = {times = [%s], values = [%s]}"
+    short = CASE.replace(inlet, inlet + ramp % ("0, 0.15", "1, 2"))
+    whole = CASE.replace(inlet, inlet + ramp % ("0, 0.15, 0.3", "1, 2, 3"))
+    for ranks in (1, 2):
+        out = "failed%d" % ranks
+        result = program.run(out, ranks, text=short)
+        check(result.returncode == 1 and "time_table ends" in result.stderr, result.stderr)
+        check("step " in result.stderr and "dt = " in result.stderr, result.stderr)
+        check(program.checkpoints(out)[-1] in result.stderr, result.stderr)
+        program.finished(out, ranks, text=whole, options=["--restart", "latest"])
+        program.finished("ramp%d" % ranks, ranks, text=whole)
+        for name in ("gas.csv", "probe_axis.csv", "probe_drag.csv"):
+            check(filecmp.cmp(program.path(out, name), program.path("ramp%d" % ranks, name), False),
+                  name + " differs after a failed step")
+
+
 def a_finished_run_can_be_extended(program):
     output = program.finished("whole1", 1, text=CASE.replace("end_time = 0.25", "end_time = 0.26"),
                               options=["--restart", "latest"])
@@ -260,6 +279,7 @@ def main():
                      other_cases_are_refused_by_name,
                      damaged_and_foreign_files_are_refused,
                      sides_may_change_and_are_named,
+                     a_failed_step_leaves_the_last_good_state,
                      a_finished_run_can_be_extended):
             start = time.monotonic()
             test(program)
