@@ -116,7 +116,8 @@ void BodyLoads::find_walls() {
 void BodyLoads::start(const ImmersedBoundary& immersed_boundary) {
   loads_.assign(loads_.size(), {});
   stress_impulse_ = Vec3::Zero();
-  std::vector<Vec3> reference;
+  std::vector<Vec3>& reference = reference_;
+  reference.clear();
   for (const Body& body : domain_.bodies) {
     reference.push_back(torque_point_at(body, domain_.walls_time));
   }

@@ -53,6 +53,7 @@ void transport(Field& slope, const IndexBox& box, const Field& flux, const Field
   const std::ptrdiff_t second = along_component ? 0 : s.along;
   const std::ptrdiff_t a = s.along;
   for_each_row(box, slope, [=](std::ptrdiff_t row, int length) {
+#pragma omp simd
     for (std::ptrdiff_t n = row; n < row + length; ++n) {
       const double hi = 0.5 * (f[n + first] + f[n + second]);
       const double lo = 0.5 * (f[n + first - a] + f[n + second - a]);
@@ -92,24 +93,25 @@ void add(VectorField& slope, const GasDomain& domain, const VectorField& flux,
   }
 }
 
-VectorField gas_flux(const FaceMedium& medium, const VectorField& velocity) {
-  VectorField flux = velocity;
+void set_gas_flux(VectorField& flux, const FaceMedium& medium, const VectorField& velocity) {
   for (int d = 0; d < 3; ++d) {
+    if (flux[d].count() == 0) flux[d] = Field(velocity[d].size());
     double* f = flux[d].data();
     const double* eps = medium.void_fraction[d].data();
-    for (std::size_t n = 0; n < flux[d].count(); ++n) f[n] *= eps[n];
+    const double* u = velocity[d].data();
+    const std::size_t count = flux[d].count();
+#pragma omp simd
+    for (std::size_t n = 0; n < count; ++n) f[n] = eps[n] * u[n];
   }
-  return flux;
 }
 
 }  // namespace
 
 void add_convection(VectorField& slope, const GasDomain& domain, const FaceMedium& medium,
-                    const VectorField& velocity, Convection scheme) {
+                    const VectorField& velocity, Convection scheme, VectorField& gas_flux) {
   if (scheme == Convection::none) return;
-  VectorField scaled;
-  if (medium.has_grains) scaled = gas_flux(medium, velocity);
-  const VectorField& flux = medium.has_grains ? scaled : velocity;
+  if (medium.has_grains) set_gas_flux(gas_flux, medium, velocity);
+  const VectorField& flux = medium.has_grains ? gas_flux : velocity;
   if (scheme == Convection::central) {
     add<Central>(slope, domain, flux, velocity);
   } else {

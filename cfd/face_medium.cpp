@@ -10,23 +10,33 @@ namespace gasgrain::cfd {
 namespace {
 
 bool any_grains(const GasDomain& domain, const GrainPhase& grains) {
-  bool any = false;
-  for_each_cell(domain.size(), [&](int i, int j, int k) {
-    any = any || grains.void_fraction(i, j, k) != 1.0 || grains.momentum_exchange(i, j, k) != 0.0;
+  const double* eps = grains.void_fraction.data();
+  const double* b = grains.momentum_exchange.data();
+  const double signs = sum_cells(grains.void_fraction, [=](std::ptrdiff_t n) {
+    return eps[n] != 1.0 || b[n] != 0.0 ? 1.0 : 0.0;
   });
-  return max_over_ranks(domain.decomposition, any ? 1.0 : 0.0) > 0.0;
+  return max_over_ranks(domain.decomposition, signs) > 0.0;
 }
 
 // Weights of the cell below and above a face; zero sum where the face does not take part.
-struct Weights {
-  double below, above;
-};
+class Weights {
+ public:
+  Weights(const GasDomain& domain, int d)
+      : stride_(domain.open_share.stride(d)),
+        upper_share_(domain.walls.upper_share[d].data()),
+        lower_share_(domain.walls.lower_share[d].data()),
+        share_(domain.joint_share[d].data()) {}
 
-Weights weights_of(const GasDomain& domain, int d, std::ptrdiff_t n) {
-  const std::ptrdiff_t below = n - domain.open_share.stride(d);
-  return {domain.walls.upper_share[d][below] * domain.joint_share[d][below],
-          domain.walls.lower_share[d][n] * domain.joint_share[d][n]};
-}
+  double below(std::ptrdiff_t n) const { return upper_share_[n - stride_] * share_[n - stride_]; }
+  double above(std::ptrdiff_t n) const { return lower_share_[n] * share_[n]; }
+  std::ptrdiff_t stride() const { return stride_; }
+
+ private:
+  std::ptrdiff_t stride_;
+  const double* upper_share_;
+  const double* lower_share_;
+  const double* share_;
+};
 
 // The cells' values with those of lenders joined to their hosts', weighted by open volume. Without
 // lenders it is `cells` itself; otherwise `joined` holds the result.
@@ -49,39 +59,45 @@ void update_void_fraction(FaceMedium& medium, const GasDomain& domain, int d) {
   const Index3& size = domain.size();
   IndexBox box{{-halo, -halo, -halo}, {size[0] + halo, size[1] + halo, size[2] + halo}};
   box.begin[d] += 1;  // the lowest ghost face has only one cell
-  for_each_row(box, cells, [&](std::ptrdiff_t first, int length) {
-    for (std::ptrdiff_t n = first; n < first + length; ++n) {
-      const double below = cells[n - cells.stride(d)], above = cells[n];
-      const Weights w = weights_of(domain, d, n);
-      const double sum = w.below + w.above;
-      medium.void_fraction[d][n] =
-          sum > 0.0 ? (w.below * below + w.above * above) / sum : 0.5 * (below + above);
-    }
+  const Weights w(domain, d);
+  const double* cell = cells.data();
+  double* face = medium.void_fraction[d].data();
+  for_box(box, cells, [=](std::ptrdiff_t n) {
+    const double below = cell[n - w.stride()], above = cell[n];
+    const double sum = w.below(n) + w.above(n);
+    const double mean = (w.below(n) * below + w.above(n) * above) / (sum > 0.0 ? sum : 1.0);
+    face[n] = sum > 0.0 ? mean : 0.5 * (below + above);
   });
 }
 
 void update_drag(FaceMedium& medium, const GasDomain& domain, const GrainPhase& grains, int d) {
   Field joined_b, joined_bv;
-  const Field& b = join_lenders(joined_b, domain, d, grains.momentum_exchange);
-  const Field& bv = join_lenders(joined_bv, domain, d, grains.exchange_momentum[d]);
-  for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
-    const std::ptrdiff_t n = b.index(i, j, k), below = n - b.stride(d);
-    const Weights w = weights_of(domain, d, n);
-    const double sum = w.below + w.above;
-    const double scale = sum > 0.0 ? 1.0 / sum : 0.0;
-    medium.momentum_exchange[d][n] = scale * (w.below * b[below] + w.above * b[n]);
-    medium.exchange_momentum[d][n] = scale * (w.below * bv[below] + w.above * bv[n]);
+  const double* b = join_lenders(joined_b, domain, d, grains.momentum_exchange).data();
+  const double* bv = join_lenders(joined_bv, domain, d, grains.exchange_momentum[d]).data();
+  const Weights w(domain, d);
+  double* face_b = medium.momentum_exchange[d].data();
+  double* face_bv = medium.exchange_momentum[d].data();
+  for_box(all_faces(domain, d), grains.momentum_exchange, [=](std::ptrdiff_t n) {
+    const double below = w.below(n), above = w.above(n), sum = below + above;
+    const double scale = (sum > 0.0 ? 1.0 : 0.0) / (sum > 0.0 ? sum : 1.0);
+    face_b[n] = scale * (below * b[n - w.stride()] + above * b[n]);
+    face_bv[n] = scale * (below * bv[n - w.stride()] + above * bv[n]);
   });
 }
 
 constexpr double round_off = 1e-12;
 
-void check_void_fraction(const GasDomain& domain, const Field& void_fraction) {
-  for_each_cell(domain.size(), [&](int i, int j, int k) {
-    const double eps = void_fraction(i, j, k);
-    GASGRAIN_ASSERT((eps > 0.0 && eps <= 1.0 + round_off) ||
-                    domain.walls.wall_fraction(i, j, k) == 1.0);
+// Takes over the cells' void fractions; solid cells have none of their own.
+void set_cell_void_fraction(Field& cells, const GasDomain& domain, const Field& given) {
+  const double* eps = given.data();
+  const double* wall = domain.walls.wall_fraction.data();
+  double* result = cells.data();
+  const double wrong = sum_cells(given, [=](std::ptrdiff_t n) {
+    const bool solid = wall[n] == 1.0;
+    result[n] = solid ? 1.0 : eps[n];
+    return solid || (eps[n] > 0.0 && eps[n] <= 1.0 + round_off) ? 0.0 : 1.0;
   });
+  GASGRAIN_ASSERT(wrong == 0.0);
 }
 
 }  // namespace
@@ -99,20 +115,18 @@ FaceMedium make_face_medium(const GasDomain& domain) {
 }
 
 void update(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains) {
+  const bool had_grains = medium.has_grains;
   medium.has_grains = any_grains(domain, grains);
   if (!medium.has_grains) {
-    medium.cell_void_fraction.fill(1.0);
+    if (had_grains) medium.cell_void_fraction.fill(1.0);
     return;
   }
-  medium.cell_void_fraction = grains.void_fraction;
-  check_void_fraction(domain, grains.void_fraction);
-  for_each_cell(domain.size(), [&](int i, int j, int k) {
-    if (domain.walls.wall_fraction(i, j, k) == 1.0) medium.cell_void_fraction(i, j, k) = 1.0;
-  });
+  set_cell_void_fraction(medium.cell_void_fraction, domain, grains.void_fraction);
   fill_scalar_ghosts(domain, medium.cell_void_fraction);
   update(medium.edges, domain, medium.cell_void_fraction);
-  fill_ghosts(domain.decomposition, grains.momentum_exchange);
-  fill_ghosts(domain.decomposition, grains.exchange_momentum);
+  Field* const drag[] = {&grains.momentum_exchange, &grains.exchange_momentum[0],
+                         &grains.exchange_momentum[1], &grains.exchange_momentum[2]};
+  fill_ghosts(domain.decomposition, drag);
   for (int d = 0; d < 3; ++d) {
     update_void_fraction(medium, domain, d);
     update_drag(medium, domain, grains, d);

@@ -59,18 +59,6 @@ struct Slope {
   Vec3 viscous = Vec3::Zero();
 };
 
-// Wall time since the last call.
-class Stopwatch {
- public:
-  double lap() {
-    const double before = std::exchange(now_, MPI_Wtime());
-    return now_ - before;
-  }
-
- private:
-  double now_ = MPI_Wtime();
-};
-
 VectorField fields(const Index3& size) {
   return {Field(size), Field(size), Field(size)};
 }
@@ -108,6 +96,8 @@ struct GasSolver::State {
   VectorField velocity;
   Vec3 speeds = Vec3::Zero();  // largest |u| per direction of all ranks, m/s
   Field pressure;
+  Field old_void_fraction;  // of the cells at the start of the step
+  VectorField gas_flux;     // eps u on faces, m/s: work space of the convection
   Slope slope, old_slope;
   IntervalMeans means;
   double time = 0.0, previous_dt = 0.0;
@@ -182,10 +172,12 @@ void GasSolver::State::evaluate_slope() {
     old_slope.convection = volume_integral(domain, old_slope.total) - old_slope.viscous;
   }
   for (Field& component : slope.total) component.fill(0.0);
-  add_convection(slope.total, domain, medium, velocity, gas_case.numerics.convection);
+  add_convection(slope.total, domain, medium, velocity, gas_case.numerics.convection, gas_flux);
   slope.convection = volume_integral(domain, slope.total);
   add_viscous_stress(slope.total, domain, medium, velocity);
-  slope.viscous = volume_integral(domain, slope.total) - slope.convection;
+  slope.viscous = domain.gas.viscosity > 0.0
+                      ? Vec3(volume_integral(domain, slope.total) - slope.convection)
+                      : Vec3(Vec3::Zero());
 }
 
 // Steps 1 and 2 on the faces that take part.
@@ -194,18 +186,26 @@ void GasSolver::State::predict(double dt, const AdamsBashforth& weights) {
   for (int d = 0; d < 3; ++d) {
     if (!domain.solved[d]) continue;
     const double g = domain.gas.gravity[d];
-    for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
-      const std::ptrdiff_t n = velocity[d].index(i, j, k);
-      if (domain.walls.takes_part[d][n] == 0.0) return;
-      const double eps = face_void_fraction(medium, d, n);
-      double force = weights.now * slope.total[d][n] + weights.before * old_slope.total[d][n];
-      double drag_number = 0.0;
-      if (medium.has_grains) {
-        force += medium.exchange_momentum[d][n];
-        drag_number = dt * medium.momentum_exchange[d][n] / (eps * rho);
-      }
-      velocity[d][n] = (velocity[d][n] + dt * (force / (eps * rho) + g)) / (1.0 + drag_number);
-    });
+    const double* part = domain.walls.takes_part[d].data();
+    const double* now = slope.total[d].data();
+    const double* before = old_slope.total[d].data();
+    const double* eps = medium.void_fraction[d].data();
+    const double* b = medium.momentum_exchange[d].data();
+    const double* bv = medium.exchange_momentum[d].data();
+    double* u = velocity[d].data();
+    if (medium.has_grains) {
+      for_box(all_faces(domain, d), velocity[d], [=](std::ptrdiff_t n) {
+        const double mass = eps[n] * rho;
+        const double force = weights.now * now[n] + weights.before * before[n] + bv[n];
+        const double predicted = (mass * (u[n] + dt * g) + dt * force) / (mass + dt * b[n]);
+        u[n] = part[n] != 0.0 ? predicted : u[n];
+      });
+    } else {
+      for_box(all_faces(domain, d), velocity[d], [=](std::ptrdiff_t n) {
+        const double force = weights.now * now[n] + weights.before * before[n];
+        u[n] = part[n] != 0.0 ? u[n] + dt * (force / rho + g) : u[n];
+      });
+    }
   }
 }
 
@@ -223,8 +223,8 @@ void GasSolver::State::measure_loads(MomentumBudget& budget, double dt,
 void GasSolver::State::check_finite(double dt, double speed_before) const {
   double sum = 0.0;
   for (int d = 0; d < 3; ++d) {
-    for_each_face(domain.decomposition, d,
-                  [&](int i, int j, int k) { sum += std::abs(velocity[d](i, j, k)); });
+    sum += sum_box(all_faces(domain, d), velocity[d],
+                   [u = velocity[d].data()](std::ptrdiff_t n) { return std::abs(u[n]); });
   }
   if (std::isfinite(sum_over_ranks(domain.decomposition, sum))) return;
   std::ostringstream message;
@@ -284,24 +284,30 @@ StepReport GasSolver::advance(double dt) {
   State& s = *state_;
   const GasDomain& domain = s.domain;
   GASGRAIN_ASSERT(dt > 0.0 && std::isfinite(dt));
-  Stopwatch stopwatch;
   StepReport report;
   MomentumBudget& budget = report.momentum;
   const AdamsBashforth weights = adams_bashforth(dt, s.previous_dt);
   const double speed_before = s.speeds.maxCoeff();
   if (s.time + dt > domain.walls_time + walls_are_there * dt) s.move_bodies(s.time + dt);
-  const Field old_void_fraction = s.medium.cell_void_fraction;
+  const bool had_grains = s.medium.has_grains;
+  s.old_void_fraction = s.medium.cell_void_fraction;
+  PassClock clock;
 
   s.evaluate_slope();
-  const Vec3 momentum_before =
-      gas_momentum(domain, s.medium, s.velocity) - s.momentum_of_moved_walls;
+  clock.finish(report.times, Pass::slope);
+  const Vec3 momentum_at_start = gas_momentum(domain, s.medium, s.velocity);
+  const Vec3 momentum_before = momentum_at_start - s.momentum_of_moved_walls;
   s.momentum_of_moved_walls = Vec3::Zero();
   update(s.medium, domain, s.grains);
-  const Vec3 momentum_with_new_void = gas_momentum(domain, s.medium, s.velocity);
+  const bool any_grains = had_grains || s.medium.has_grains;
+  const Field* const old_void_fraction = any_grains ? &s.old_void_fraction : nullptr;
+  const Vec3 momentum_with_new_void =
+      any_grains ? gas_momentum(domain, s.medium, s.velocity) : momentum_at_start;
+  clock.finish(report.times, Pass::medium);
 
   s.domain.sides.set_time(s.time + dt);
   s.predict(dt, weights);
-  report.times.predictor = stopwatch.lap();
+  clock.finish(report.times, Pass::predict);
   set_solid_faces(s.velocity, domain);
   fill_velocity_ghosts(domain, s.medium, s.velocity);
   if (domain.walls.has_bodies) {
@@ -309,24 +315,26 @@ StepReport GasSolver::advance(double dt) {
     fill_velocity_ghosts(domain, s.medium, s.velocity);
   }
   s.check_finite(dt, speed_before);
-  report.times.boundary = stopwatch.lap();
+  clock.finish(report.times, Pass::boundary);
 
-  const Projection::Report projected =
-      s.projection.solve(s.medium, old_void_fraction, s.velocity, dt, s.pressure);
-  report.times.pressure = stopwatch.lap();
-  s.projection.correct(s.velocity, s.medium, dt);
+  const Projection::Balance balance =
+      s.projection.set_equation(s.medium, old_void_fraction, s.velocity, dt);
+  report.removed_mean = balance.removed_mean;
+  report.swept_imbalance = balance.swept_imbalance;
+  clock.finish(report.times, Pass::equation);
+  report.pressure = s.projection.solve(s.pressure);
+  clock.finish(report.times, Pass::solve);
+  s.projection.correct(s.velocity, s.pressure, s.medium, dt);
   fill_velocity_ghosts(domain, s.medium, s.velocity);
   s.time += dt;
   s.previous_dt = dt;
   s.check_finite(dt, speed_before);
 
-  report.pressure = projected.solve;
-  report.removed_mean = projected.removed_mean;
-  report.swept_imbalance = projected.swept_imbalance;
   report.divergence = s.projection.divergence(s.medium, old_void_fraction, s.velocity, dt);
   s.speeds = largest_speeds(domain, s.velocity);
   report.largest_speed = s.speeds.maxCoeff();
   report.courant_number = dt * s.speeds.cwiseQuotient(domain.spacing).maxCoeff();
+  clock.finish(report.times, Pass::correct);
   budget.stored = gas_momentum(domain, s.medium, s.velocity) - momentum_before;
   budget.convection =
       momentum_with_new_void - momentum_before +
@@ -336,8 +344,8 @@ StepReport GasSolver::advance(double dt) {
   add_forces(budget, domain, s.medium, s.velocity, s.projection.pressure_gradient(), dt);
   add_pressure_reactions(budget, domain, s.pressure, s.projection.pressure_gradient(), dt);
   sum_over_ranks(domain.decomposition, budget);
+  clock.finish(report.times, Pass::budget);
   if (s.means.started()) s.means.add(s.medium, s.velocity, s.projection.pressure_gradient(), dt);
-  report.times.correction = stopwatch.lap();
   return report;
 }
 

@@ -12,6 +12,7 @@
 #include "cfd/field.hpp"
 #include "cfd/gas_case.hpp"
 #include "cfd/grid.hpp"
+#include "cfd/pass_times.hpp"
 #include "cfd/pressure_solver.hpp"
 #include "cfd/side_conditions.hpp"
 #include "cfd/state_archive.hpp"
@@ -49,14 +50,6 @@ struct MomentumBudget {
                      // bodies: -(body + body_pressure + body_stress)/dt is their load
 };
 
-// Wall time of the parts of a step on this rank, s. For display; decides nothing.
-struct StepTimes {
-  double predictor = 0.0;   // convection, viscous stress, drag
-  double boundary = 0.0;    // sides and immersed bodies
-  double pressure = 0.0;    // coefficients and solve
-  double correction = 0.0;  // velocity, reports and budgets
-};
-
 struct StepReport {
   PressureReport pressure;       // iterations, residual
   double divergence = 0.0;       // largest |continuity residual| * dt, relative to eps (-)
@@ -67,7 +60,7 @@ struct StepReport {
   double courant_number = 0.0;   // largest |u| dt / dx after the step
   double largest_speed = 0.0;    // largest velocity component after the step, m/s
   MomentumBudget momentum;
-  StepTimes times;
+  PassTimes times;  // of this rank; for display, they decide nothing
 };
 
 class GasSolver {

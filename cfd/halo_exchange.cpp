@@ -199,6 +199,7 @@ double sum_over_ranks(const Decomposition& decomposition, double value) {
 
 double max_over_ranks(const Decomposition& decomposition, double value) {
   double largest = value;
+  if (decomposition.size() == 1) return largest;
   MPI_Allreduce(&value, &largest, 1, MPI_DOUBLE, MPI_MAX, decomposition.communicator());
   return largest;
 }

@@ -94,8 +94,8 @@ Vec3 ImmersedBoundary::apply(VectorField& velocity, const GasDomain& domain,
   if (mu == 0.0) return impulse;
   for (int d = 0; d < 3; ++d) {
     Field& u = velocity[d];
-    std::vector<double> changed;
-    changed.reserve(faces_[d].size());
+    std::vector<double>& changed = changed_;
+    changed.clear();
     for (Face& face : faces_[d]) {
       const double beta = medium.has_grains ? medium.momentum_exchange[d][face.face] : 0.0;
       const double eps = face_void_fraction(medium, d, face.face);

@@ -41,6 +41,7 @@ class ImmersedBoundary {
   double probe_length_ = 0.0;               // delta, m
   std::array<bool, 3> varies_{};            // directions to interpolate in
   std::array<std::vector<Face>, 3> faces_;  // per direction
+  std::vector<double> changed_;             // velocities of the faces of one direction, m/s
 };
 
 // Sets the velocity of faces that cannot move freely inside the grid to that of the body.

@@ -57,10 +57,31 @@ double sum_box(const IndexBox& box, const Field& like, const Term& term) {
   return sum;
 }
 
+// Largest term(storage index), at least 0, over the box. Terms as in for_box; none may be NaN.
+template <class Term>
+double max_box(const IndexBox& box, const Field& like, const Term& term) {
+  double largest = 0.0;
+  for_each_row(box, like, [&](std::ptrdiff_t first, int length) {
+    double row = 0.0;
+#pragma omp simd reduction(max : row)
+    for (std::ptrdiff_t n = first; n < first + length; ++n) {
+      const double value = term(n);
+      row = value > row ? value : row;
+    }
+    largest = row > largest ? row : largest;
+  });
+  return largest;
+}
+
 // The same over the owned cells of a cell field.
 template <class Visit>
 void for_cells(const Field& like, const Visit& visit) {
   for_box({{0, 0, 0}, like.size()}, like, visit);
+}
+
+template <class Term>
+double max_cells(const Field& like, const Term& term) {
+  return max_box({{0, 0, 0}, like.size()}, like, term);
 }
 
 template <class Term>

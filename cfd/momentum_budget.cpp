@@ -10,6 +10,10 @@
 // Without bodies only the cells next to the sides have such a difference.
 #include "cfd/momentum_budget.hpp"
 
+#include <algorithm>
+#include <array>
+#include <iterator>
+
 #include "cfd/halo_exchange.hpp"
 
 namespace gasgrain::cfd {
@@ -37,11 +41,10 @@ double pressure_on_side(const GasDomain& domain, const Field& pressure, const Fi
 double integral_by_parts(const GasDomain& domain, const Field& pressure, int d) {
   const Field& volume = domain.control_volume[d];
   const std::ptrdiff_t s = volume.stride(d);
-  double sum = 0.0;
-  for_each_cell(domain.size(), [&](int i, int j, int k) {
-    const std::ptrdiff_t n = volume.index(i, j, k);
-    sum += pressure[n] * (volume[n] - volume[n + s]) / domain.spacing[d];
-  });
+  const double* v = volume.data();
+  const double* p = pressure.data();
+  double sum = sum_cells(pressure, [=](std::ptrdiff_t n) { return p[n] * (v[n] - v[n + s]); }) /
+               domain.spacing[d];
   for (int side = 0; side < 2; ++side) {
     const double outwards = side == 0 ? -1.0 : 1.0;
     // half the spacing: the cell's coefficient doubles, and the outlet's pressure stands opposite
@@ -59,11 +62,15 @@ double integral_by_parts(const GasDomain& domain, const Field& pressure, int d) 
 Vec3 gas_momentum(const GasDomain& domain, const FaceMedium& medium, const VectorField& velocity) {
   Vec3 momentum = Vec3::Zero();
   for (int d = 0; d < 3; ++d) {
-    for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
-      const std::ptrdiff_t n = velocity[d].index(i, j, k);
-      momentum[d] += domain.control_volume[d][n] * domain.gas.density *
-                     face_void_fraction(medium, d, n) * velocity[d][n];
-    });
+    const double* volume = domain.control_volume[d].data();
+    const double* eps = medium.void_fraction[d].data();
+    const double* u = velocity[d].data();
+    const IndexBox faces = all_faces(domain, d);
+    momentum[d] =
+        domain.gas.density *
+        (medium.has_grains
+             ? sum_box(faces, velocity[d], [=](auto n) { return volume[n] * eps[n] * u[n]; })
+             : sum_box(faces, velocity[d], [=](auto n) { return volume[n] * u[n]; }));
   }
   return momentum;
 }
@@ -71,9 +78,9 @@ Vec3 gas_momentum(const GasDomain& domain, const FaceMedium& medium, const Vecto
 Vec3 volume_integral(const GasDomain& domain, const VectorField& field) {
   Vec3 sum = Vec3::Zero();
   for (int d = 0; d < 3; ++d) {
-    for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
-      sum[d] += domain.control_volume[d](i, j, k) * field[d](i, j, k);
-    });
+    const double* volume = domain.control_volume[d].data();
+    const double* value = field[d].data();
+    sum[d] = sum_box(all_faces(domain, d), field[d], [=](auto n) { return volume[n] * value[n]; });
   }
   return sum;
 }
@@ -81,17 +88,28 @@ Vec3 volume_integral(const GasDomain& domain, const VectorField& field) {
 void add_forces(MomentumBudget& budget, const GasDomain& domain, const FaceMedium& medium,
                 const VectorField& velocity, const VectorField& pressure_gradient, double dt) {
   for (int d = 0; d < 3; ++d) {
-    for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
-      const std::ptrdiff_t n = velocity[d].index(i, j, k);
-      const double impulse = dt * domain.control_volume[d][n];
-      const double eps = face_void_fraction(medium, d, n);
-      budget.gravity[d] += impulse * eps * domain.gas.density * domain.gas.gravity[d];
-      budget.pressure[d] -= impulse * eps * pressure_gradient[d][n];
-      if (!medium.has_grains) return;
-      budget.pressure_on_grains[d] -= impulse * (1.0 - eps) * pressure_gradient[d][n];
-      budget.drag[d] += impulse * (medium.exchange_momentum[d][n] -
-                                   medium.momentum_exchange[d][n] * velocity[d][n]);
-    });
+    const double* volume = domain.control_volume[d].data();
+    const double* gradient = pressure_gradient[d].data();
+    const double weight = dt * domain.gas.density * domain.gas.gravity[d];
+    const IndexBox faces = all_faces(domain, d);
+    const auto sum = [&](const auto& term) { return sum_box(faces, velocity[d], term); };
+    const double whole = sum([=](auto n) { return volume[n] * gradient[n]; });
+    if (!medium.has_grains) {
+      budget.gravity[d] += weight * sum([=](auto n) { return volume[n]; });
+      budget.pressure[d] -= dt * whole;
+      continue;
+    }
+    const double* eps = medium.void_fraction[d].data();
+    const double* u = velocity[d].data();
+    const double* b = medium.momentum_exchange[d].data();
+    const double* bv = medium.exchange_momentum[d].data();
+    const double of_gas = sum([=](auto n) { return volume[n] * eps[n] * gradient[n]; });
+    budget.pressure[d] -= dt * of_gas;
+    budget.pressure_on_grains[d] -= dt * (whole - of_gas);
+    if (weight != 0.0) {
+      budget.gravity[d] += weight * sum([=](auto n) { return volume[n] * eps[n]; });
+    }
+    budget.drag[d] += dt * sum([=](auto n) { return volume[n] * (bv[n] - b[n] * u[n]); });
   }
 }
 
@@ -132,10 +150,11 @@ void sum_over_ranks(const Decomposition& decomposition, MomentumBudget& budget) 
                         &budget.gravity,       &budget.convection, &budget.viscous,
                         &budget.drag,          &budget.body,       &budget.side_pressure,
                         &budget.body_pressure, &budget.body_stress};
-  std::vector<double> values;
-  for (const Vec3* row : rows) values.insert(values.end(), row->data(), row->data() + 3);
-  sum_over_ranks(decomposition, values);
+  std::array<double, 3 * std::size(rows)> values;
   auto next = values.begin();
+  for (const Vec3* row : rows) next = std::copy_n(row->data(), 3, next);
+  sum_over_ranks(decomposition, values);
+  next = values.begin();
   for (Vec3* row : rows) {
     for (int d = 0; d < 3; ++d) (*row)[d] = *next++;
   }

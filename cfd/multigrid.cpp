@@ -4,8 +4,7 @@
 //   strong couplings are coarsened first. Cells are joined within a rank's block, hence blocks of
 //   any (odd, uneven) size work and a coarse face never straddles two ranks.
 // - Transfer: piecewise constant, its transpose downwards. The coarse face coefficient is the sum
-// of
-//   the fine ones times the ratio of the distances between cell centres, which makes up for the
+//   of the fine ones times the ratio of the distances between cell centres, which makes up for the
 //   constant transfer (Braess, Computing 55 (1995) 379, over-correction; Wesseling 1992, ch. 5).
 // - Smoother: red-black Gauss-Seidel, two sweeps down and two up in mirrored order, which keeps the
 //   cycle symmetric. Colours follow the global index, so they agree across ranks.
@@ -65,8 +64,11 @@ struct Multigrid::Level {
 };
 
 struct Multigrid::Coarsest {
-  std::vector<int> counts, offsets;  // cells per rank
+  std::vector<int> counts, offsets;                // cells per rank
+  std::vector<int> matrix_counts, matrix_offsets;  // entries per rank: its columns
+  std::vector<float> number;                       // of every cell, ghosts filled; -1 outside
   int total = 0;
+  Eigen::MatrixXd matrix;
   Eigen::LLT<Eigen::MatrixXd> factor;
   Eigen::VectorXd values;
 };
@@ -121,14 +123,22 @@ void Multigrid::Level::fill_ghosts(const Decomposition& blocks) {
 }
 
 void Multigrid::Level::set_inverse_diagonal() {
+  const float* x_face = face[0].data();
+  const float* y_face = face[1].data();
+  const float* z_face = face[2].data();
+  const float* extra = outlet.data();
+  float* inverse = inverse_diagonal.data();
+  const std::ptrdiff_t sy = stride[1], sz = stride[2];
   for (int k = 0; k < size[2]; ++k)
-    for (int j = 0; j < size[1]; ++j)
-      for (int i = 0; i < size[0]; ++i) {
-        const std::ptrdiff_t c = at(i, j, k);
-        float sum = outlet[c];
-        for (int d = 0; d < 3; ++d) sum += face[d][c] + face[d][c + stride[d]];
-        inverse_diagonal[c] = sum > 0 ? 1.0F / sum : 0.0F;
+    for (int j = 0; j < size[1]; ++j) {
+      const std::ptrdiff_t row = at(0, j, k);
+#pragma omp simd
+      for (std::ptrdiff_t c = row; c < row + size[0]; ++c) {
+        const float sum = extra[c] + x_face[c] + x_face[c + 1] + y_face[c] + y_face[c + sy] +
+                          z_face[c] + z_face[c + sz];
+        inverse[c] = (sum > 0 ? 1.0F : 0.0F) / (sum > 0 ? sum : 1.0F);
       }
+    }
 }
 
 // One Gauss-Seidel sweep over the cells of one colour.
@@ -183,6 +193,18 @@ std::vector<double> joined_widths(const std::vector<double>& fine, int joined, i
                  MPI_STATUS_IGNORE);
   }
   return width;
+}
+
+// Global number of every cell of the coarsest level, ghosts by exchange; -1 outside the grid.
+template <class Level>
+std::vector<float> numbered_cells(Level& level, const Decomposition& blocks, int first) {
+  std::fill(level.x.begin(), level.x.end(), -1.0F);
+  int n = first;
+  for (int k = 0; k < level.size[2]; ++k)
+    for (int j = 0; j < level.size[1]; ++j)
+      for (int i = 0; i < level.size[0]; ++i) level.x[level.at(i, j, k)] = static_cast<float>(n++);
+  level.fill_ghosts(blocks);
+  return level.x;
 }
 
 long sum_of_cells(const Decomposition& blocks, long cells) {
@@ -268,6 +290,11 @@ Multigrid::Multigrid(const Decomposition& decomposition)
     last.offsets[r] = last.offsets[r - 1] + last.counts[r - 1];
   last.total = last.offsets.back() + last.counts.back();
   last.values.resize(last.total);
+  for (int r = 0; r < blocks.size(); ++r) {
+    last.matrix_counts.push_back(last.counts[r] * last.total);
+    last.matrix_offsets.push_back(last.offsets[r] * last.total);
+  }
+  last.number = numbered_cells(*levels_.back(), blocks, last.offsets[blocks.rank()]);
 }
 
 namespace {
@@ -308,46 +335,40 @@ void coarsen_coefficients(const Level& fine, Level& coarse) {
       }
 }
 
-// Global number of every cell of the coarsest level, ghosts by exchange; -1 outside the grid.
-template <class Level>
-std::vector<float> numbered_cells(Level& level, const Decomposition& blocks, int first) {
-  std::fill(level.x.begin(), level.x.end(), -1.0F);
-  int n = first;
-  for (int k = 0; k < level.size[2]; ++k)
-    for (int j = 0; j < level.size[1]; ++j)
-      for (int i = 0; i < level.size[0]; ++i) level.x[level.at(i, j, k)] = static_cast<float>(n++);
-  level.fill_ghosts(blocks);
-  return level.x;
-}
-
 }  // namespace
 
 void Multigrid::set_coefficients(const PressureSystem& system) {
   Level& finest = *levels_.front();
   for (int k = 0; k <= finest.size[2]; ++k)
-    for (int j = 0; j <= finest.size[1]; ++j)
-      for (int i = 0; i <= finest.size[0]; ++i) {
-        const std::ptrdiff_t c = finest.at(i, j, k);
-        const std::ptrdiff_t s = system.diagonal.index(i, j, k);
-        for (int d = 0; d < 3; ++d) {
-          finest.face[d][c] = static_cast<float>(system.transmissibility[d][s]);
-        }
-        if (i < finest.size[0] && j < finest.size[1] && k < finest.size[2]) {
-          finest.outlet[c] = static_cast<float>(system.diagonal[s]);
-        }
+    for (int j = 0; j <= finest.size[1]; ++j) {
+      const std::ptrdiff_t to = finest.at(0, j, k);
+      const std::ptrdiff_t from = system.diagonal.index(0, j, k);
+      for (int d = 0; d < 3; ++d) {
+        const double* t = system.transmissibility[d].data() + from;
+        float* face = finest.face[d].data() + to;
+#pragma omp simd
+        for (int i = 0; i <= finest.size[0]; ++i) face[i] = static_cast<float>(t[i]);
       }
+      if (j == finest.size[1] || k == finest.size[2]) continue;
+      const double* diagonal = system.diagonal.data() + from;
+      float* outlet = finest.outlet.data() + to;
+#pragma omp simd
+      for (int i = 0; i < finest.size[0]; ++i) outlet[i] = static_cast<float>(diagonal[i]);
+    }
   finest.set_inverse_diagonal();
   for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
     coarsen_coefficients(*levels_[l], *levels_[l + 1]);
     levels_[l + 1]->set_inverse_diagonal();
   }
+  factor_coarsest();
+}
 
-  Level& last = *levels_.back();
+void Multigrid::factor_coarsest() {
+  const Level& last = *levels_.back();
   Coarsest& dense = *coarsest_;
-  const int first = dense.offsets[decomposition_.rank()];
-  const std::vector<float> number = numbered_cells(last, decomposition_, first);
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(dense.total, dense.total);
-  int row = first;
+  Eigen::MatrixXd& matrix = dense.matrix;
+  matrix.setZero(dense.total, dense.total);
+  int row = dense.offsets[decomposition_.rank()];
   for (int k = 0; k < last.size[2]; ++k)
     for (int j = 0; j < last.size[1]; ++j)
       for (int i = 0; i < last.size[0]; ++i, ++row) {
@@ -356,7 +377,8 @@ void Multigrid::set_coefficients(const PressureSystem& system) {
         for (int d = 0; d < 3; ++d) {
           for (const std::ptrdiff_t upper : {std::ptrdiff_t{0}, last.stride[d]}) {
             const double coefficient = last.face[d][c + upper];
-            const int other = static_cast<int>(number[upper ? c + upper : c - last.stride[d]]);
+            const int other =
+                static_cast<int>(dense.number[upper ? c + upper : c - last.stride[d]]);
             if (coefficient <= 0 || other < 0 || other == row) continue;
             matrix(other, row) -= coefficient;  // column-major: this rank's columns are contiguous
             diagonal += coefficient;
@@ -364,12 +386,10 @@ void Multigrid::set_coefficients(const PressureSystem& system) {
         }
         matrix(row, row) += diagonal > 0 ? diagonal * (1 + 1e-6) : 1.0;
       }
-  std::vector<int> counts(dense.counts);
-  std::vector<int> offsets(dense.offsets);
-  for (int& n : counts) n *= dense.total;
-  for (int& n : offsets) n *= dense.total;
-  MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, matrix.data(), counts.data(), offsets.data(),
-                 MPI_DOUBLE, decomposition_.communicator());
+  if (decomposition_.size() > 1) {
+    MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, matrix.data(), dense.matrix_counts.data(),
+                   dense.matrix_offsets.data(), MPI_DOUBLE, decomposition_.communicator());
+  }
   dense.factor.compute(matrix);
 }
 
@@ -381,8 +401,10 @@ void Multigrid::cycle(std::size_t index) {
     for (int k = 0; k < level.size[2]; ++k)
       for (int j = 0; j < level.size[1]; ++j)
         for (int i = 0; i < level.size[0]; ++i) dense.values[n++] = level.b[level.at(i, j, k)];
-    MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, dense.values.data(), dense.counts.data(),
-                   dense.offsets.data(), MPI_DOUBLE, decomposition_.communicator());
+    if (decomposition_.size() > 1) {
+      MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, dense.values.data(), dense.counts.data(),
+                     dense.offsets.data(), MPI_DOUBLE, decomposition_.communicator());
+    }
     dense.factor.solveInPlace(dense.values);
     n = dense.offsets[decomposition_.rank()];
     for (int k = 0; k < level.size[2]; ++k)

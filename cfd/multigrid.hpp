@@ -29,6 +29,7 @@ class Multigrid {
   struct Level;
   struct Coarsest;
 
+  void factor_coarsest();
   void cycle(std::size_t level);
 
   const Decomposition& decomposition_;

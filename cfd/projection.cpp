@@ -13,6 +13,7 @@
 // checked, the rest removed, and the mean of its pressure set to zero.
 #include "cfd/projection.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -30,9 +31,29 @@ constexpr double largest_swept_imbalance = 0.1;
 constexpr double round_off_margin = 8.0;  // in units of the evaluation's own round-off
 
 // 1 / (rho (1 + K)) * dt = dt / (rho + dt B / eps), the velocity that a unit gradient removes.
-double mobility(const FaceMedium& medium, double density, double dt, int d, std::ptrdiff_t n) {
-  if (!medium.has_grains) return dt / density;
-  return dt / (density + dt * medium.momentum_exchange[d][n] / medium.void_fraction[d][n]);
+struct WithGrains {
+  const double* eps;
+  const double* b;
+  double density, dt;
+  double void_fraction(std::ptrdiff_t n) const { return eps[n]; }
+  double mobility(std::ptrdiff_t n) const { return dt / (density + dt * b[n] / eps[n]); }
+};
+
+struct WithoutGrains {
+  double density, dt;
+  double void_fraction(std::ptrdiff_t) const { return 1.0; }
+  double mobility(std::ptrdiff_t) const { return dt / density; }
+};
+
+// Calls visit with what the faces of a direction are filled with.
+template <class Visit>
+void with_faces(const FaceMedium& medium, double density, double dt, int d, const Visit& visit) {
+  if (medium.has_grains) {
+    visit(WithGrains{medium.void_fraction[d].data(), medium.momentum_exchange[d].data(), density,
+                     dt});
+  } else {
+    visit(WithoutGrains{density, dt});
+  }
 }
 
 std::string place(const GasDomain& domain, const Index3& cell) {
@@ -54,7 +75,7 @@ Projection::Projection(const GasDomain& domain, const Numerics& numerics)
       solver_(make_pressure_solver(domain.decomposition, numerics.pressure_solver,
                                    numerics.pressure_fallback)),
       term_norm_(domain.size()),
-      outlet_term_(domain.size()) {
+      divergence_(domain.size()) {
   system_.diagonal = system_.right_hand_side = Field(domain.size());
   for (int d = 0; d < 3; ++d) gradient_[d] = system_.transmissibility[d] = Field(domain.size());
   find_regions();
@@ -71,71 +92,89 @@ void Projection::find_regions() {
     }
   }
   regions_ = find_gas_regions(domain_.decomposition, domain_.walls.takes_part, outlet);
+  closed_cells_.clear();
+  auto region = regions_.region_of_cell.begin();
+  for_each_cell(domain_.size(), [&](int i, int j, int k) {
+    if (*region++ == GasRegions::none) closed_cells_.push_back(outlet.index(i, j, k));
+  });
 }
 
 void Projection::set_coefficients(const FaceMedium& medium, double dt) {
   system_.diagonal.fill(0.0);
-  outlet_term_.fill(0.0);
+  outlet_terms_.clear();
   for (int d = 0; d < 3; ++d) {
-    Field& t = system_.transmissibility[d];
-    const Field& part = domain_.walls.takes_part[d];
-    const Field& open = domain_.walls.open_area[d];
-    const double scale = domain_.face_area(d) / domain_.spacing[d];
-    const bool joins_itself = domain_.decomposition.grid().cells[d] == 1;
-    for_each_in(inner_faces(domain_, d), [&](int i, int j, int k) {
-      const std::ptrdiff_t n = t.index(i, j, k);
-      t[n] = 0.0;
-      if (part[n] == 0.0 || joins_itself) return;
-      t[n] = scale * open[n] * face_void_fraction(medium, d, n) *
-             mobility(medium, domain_.gas.density, dt, d, n);
-    });
-    for (int side = 0; side < 2; ++side) {
-      for_each_outlet_face(
-          domain_, d, side, [&](auto cell, auto face, const SideCondition& condition) {
-            if (part[face] == 0.0) return;
-            const double coefficient = 2.0 * scale * open[face] *
-                                       face_void_fraction(medium, d, face) *
-                                       mobility(medium, domain_.gas.density, dt, d, face);
-            system_.diagonal[cell] += coefficient;
-            outlet_term_[cell] += coefficient * condition.pressure;
-          });
-    }
+    with_faces(medium, domain_.gas.density, dt, d,
+               [&](const auto& faces) { set_coefficients_along(d, faces); });
   }
   fill_ghosts(domain_.decomposition, system_.transmissibility);
 }
 
-void Projection::set_right_hand_side(const FaceMedium& medium, const Field& old_void_fraction,
+template <class Faces>
+void Projection::set_coefficients_along(int d, const Faces& faces) {
+  Field& transmissibility = system_.transmissibility[d];
+  double* t = transmissibility.data();
+  const double* part = domain_.walls.takes_part[d].data();
+  const double* open = domain_.walls.open_area[d].data();
+  const double scale = domain_.face_area(d) / domain_.spacing[d];
+  const auto coefficient = [=](std::ptrdiff_t n) {
+    return part[n] * scale * open[n] * faces.void_fraction(n) * faces.mobility(n);
+  };
+  if (domain_.decomposition.grid().cells[d] > 1) {
+    for_box(inner_faces(domain_, d), transmissibility,
+            [=](std::ptrdiff_t n) { t[n] = coefficient(n); });
+  }
+  for (int side = 0; side < 2; ++side) {
+    for_each_outlet_face(domain_, d, side,
+                         [&](auto cell, auto face, const SideCondition& condition) {
+                           const double to_outlet = 2.0 * coefficient(face);
+                           system_.diagonal[cell] += to_outlet;
+                           outlet_terms_.push_back({cell, to_outlet * condition.pressure});
+                         });
+  }
+}
+
+// The right-hand side without the outlets' pressures; with its terms' magnitudes when the sum over
+// a region without outlet is to be judged.
+void Projection::set_right_hand_side(const FaceMedium& medium, const Field* old_void_fraction,
                                      const VectorField& velocity, double dt) {
-  Field& rhs = system_.right_hand_side;
-  std::size_t m = 0;
-  for_each_cell(domain_.size(), [&](int i, int j, int k) {
-    const std::ptrdiff_t n = rhs.index(i, j, k);
-    rhs[n] = term_norm_[n] = 0.0;
-    if (regions_.region_of_cell[m++] == GasRegions::none) return;
-    const double growth = (medium.cell_void_fraction[n] - old_void_fraction[n]) / dt;
-    rhs[n] = -domain_.open_share[n] * domain_.cell_volume() * growth;
-    term_norm_[n] = std::abs(rhs[n]);
-    if (domain_.has_motion) {
-      rhs[n] += swept_[n];
-      term_norm_[n] += std::abs(swept_[n]);
-    }
-    for (int d = 0; d < 3; ++d) {
-      const Field& open = domain_.walls.open_area[d];
-      const auto flux = [&](std::ptrdiff_t face) {
-        return open[face] * face_void_fraction(medium, d, face) * velocity[d][face] *
-               domain_.face_area(d);
+  double* rhs = system_.right_hand_side.data();
+  if (old_void_fraction) {
+    const double* eps = medium.cell_void_fraction.data();
+    const double* old = old_void_fraction->data();
+    const double* open = domain_.open_share.data();
+    const double scale = domain_.cell_volume() / dt;
+    for_cells(system_.right_hand_side,
+              [=](std::ptrdiff_t n) { rhs[n] = -scale * open[n] * (eps[n] - old[n]); });
+  } else {
+    system_.right_hand_side.fill(0.0);
+  }
+  if (domain_.has_motion) {
+    const double* swept = swept_.data();
+    for_cells(swept_, [=](std::ptrdiff_t n) { rhs[n] += swept[n]; });
+  }
+  const bool judged = regions_.any_singular();
+  double* norm = term_norm_.data();
+  if (judged) for_cells(term_norm_, [=](std::ptrdiff_t n) { norm[n] = std::abs(rhs[n]); });
+  for (int d = 0; d < 3; ++d) {
+    with_faces(medium, domain_.gas.density, dt, d, [&](const auto& faces) {
+      const double* open = domain_.walls.open_area[d].data();
+      const double* u = velocity[d].data();
+      const double area = domain_.face_area(d);
+      const std::ptrdiff_t s = velocity[d].stride(d);
+      const auto flux = [=](std::ptrdiff_t n) {
+        return area * open[n] * faces.void_fraction(n) * u[n];
       };
-      const double in = flux(n), out = flux(n + open.stride(d));
-      rhs[n] += in - out;
-      term_norm_[n] += std::abs(in) + std::abs(out);
-    }
-  });
+      for_cells(term_norm_, [=](std::ptrdiff_t n) { rhs[n] += flux(n) - flux(n + s); });
+      if (!judged) return;
+      for_cells(term_norm_,
+                [=](std::ptrdiff_t n) { norm[n] += std::abs(flux(n)) + std::abs(flux(n + s)); });
+    });
+  }
+  for (const std::ptrdiff_t cell : closed_cells_) rhs[cell] = norm[cell] = 0.0;
 }
 
 void Projection::add_outlets() {
-  for_each_cell(domain_.size(), [&](int i, int j, int k) {
-    system_.right_hand_side(i, j, k) += outlet_term_(i, j, k);
-  });
+  for (const OutletTerm& term : outlet_terms_) system_.right_hand_side[term.cell] += term.value;
 }
 
 double Projection::remove_means(double dt) {
@@ -195,10 +234,10 @@ void Projection::set_gradient(const Field& pressure) {
     Field& gradient = gradient_[d];
     const Field& part = domain_.walls.takes_part[d];
     const double scale = 1.0 / domain_.spacing[d];
-    for_each_in(inner_faces(domain_, d), [&](int i, int j, int k) {
-      const std::ptrdiff_t n = pressure.index(i, j, k);
-      gradient[n] = part[n] * scale * (pressure[n] - pressure[n - pressure.stride(d)]);
-    });
+    for_box(
+        inner_faces(domain_, d), pressure,
+        [s = pressure.stride(d), scale, p = pressure.data(), open = part.data(),
+         g = gradient.data()](std::ptrdiff_t n) { g[n] = open[n] * scale * (p[n] - p[n - s]); });
     for (int side = 0; side < 2; ++side) {
       const double outwards = side == 0 ? -1.0 : 1.0;
       for_each_outlet_face(domain_, d, side,
@@ -240,49 +279,69 @@ double Projection::balance_swept_volume() {
   return largest;
 }
 
-Projection::Report Projection::solve(const FaceMedium& medium, const Field& old_void_fraction,
-                                     const VectorField& velocity, double dt, Field& pressure) {
-  Report report;
+Projection::Balance Projection::set_equation(const FaceMedium& medium,
+                                             const Field* old_void_fraction,
+                                             const VectorField& velocity, double dt) {
+  Balance balance;
   set_coefficients(medium, dt);
-  report.swept_imbalance = balance_swept_volume();
+  balance.swept_imbalance = balance_swept_volume();
   set_right_hand_side(medium, old_void_fraction, velocity, dt);
-  report.removed_mean = remove_means(dt);
+  balance.removed_mean = remove_means(dt);
   add_outlets();
-  report.solve = solver_->solve(system_, tolerance_, max_iterations_, pressure);
-  check(report.solve);
-  remove_pressure_means(pressure);
-  set_gradient(pressure);
+  return balance;
+}
+
+PressureReport Projection::solve(Field& pressure) {
+  const PressureReport report = solver_->solve(system_, tolerance_, max_iterations_, pressure);
+  check(report);
   return report;
 }
 
-void Projection::correct(VectorField& velocity, const FaceMedium& medium, double dt) const {
+void Projection::correct(VectorField& velocity, Field& pressure, const FaceMedium& medium,
+                         double dt) {
+  remove_pressure_means(pressure);
+  set_gradient(pressure);
   for (int d = 0; d < 3; ++d) {
     if (!domain_.solved[d]) continue;
-    for_each_face(domain_.decomposition, d, [&](int i, int j, int k) {
-      const std::ptrdiff_t n = velocity[d].index(i, j, k);
-      velocity[d][n] -= mobility(medium, domain_.gas.density, dt, d, n) * gradient_[d][n];
+    with_faces(medium, domain_.gas.density, dt, d, [&](const auto& faces) {
+      for_box(all_faces(domain_, d), velocity[d],
+              [faces, u = velocity[d].data(), g = gradient_[d].data()](std::ptrdiff_t n) {
+                u[n] -= faces.mobility(n) * g[n];
+              });
     });
   }
 }
 
-double Projection::divergence(const FaceMedium& medium, const Field& old_void_fraction,
-                              const VectorField& velocity, double dt) const {
-  double largest = 0.0;
-  std::size_t m = 0;
-  for_each_cell(domain_.size(), [&](int i, int j, int k) {
-    if (regions_.region_of_cell[m++] == GasRegions::none) return;
-    const std::ptrdiff_t n = old_void_fraction.index(i, j, k);
-    const double open = domain_.open_share[n], eps = medium.cell_void_fraction[n];
-    double change = open * (eps - old_void_fraction[n]);
-    if (domain_.has_motion) change -= dt * swept_[n] / domain_.cell_volume();
-    for (int d = 0; d < 3; ++d) {
-      const Field& area = domain_.walls.open_area[d];
-      const auto flux = [&](std::ptrdiff_t face) {
-        return area[face] * face_void_fraction(medium, d, face) * velocity[d][face];
-      };
-      change += dt / domain_.spacing[d] * (flux(n + area.stride(d)) - flux(n));
-    }
-    largest = std::max(largest, std::abs(change) / (open * eps));
+double Projection::divergence(const FaceMedium& medium, const Field* old_void_fraction,
+                              const VectorField& velocity, double dt) {
+  const double* open = domain_.open_share.data();
+  const double* eps = medium.cell_void_fraction.data();
+  double* change = divergence_.data();
+  if (old_void_fraction) {
+    const double* old = old_void_fraction->data();
+    for_cells(divergence_, [=](std::ptrdiff_t n) { change[n] = open[n] * (eps[n] - old[n]); });
+  } else {
+    divergence_.fill(0.0);
+  }
+  if (domain_.has_motion) {
+    const double* swept = swept_.data();
+    const double scale = dt / domain_.cell_volume();
+    for_cells(swept_, [=](std::ptrdiff_t n) { change[n] -= scale * swept[n]; });
+  }
+  for (int d = 0; d < 3; ++d) {
+    with_faces(medium, domain_.gas.density, dt, d, [&](const auto& faces) {
+      const double* area = domain_.walls.open_area[d].data();
+      const double* u = velocity[d].data();
+      const double scale = dt / domain_.spacing[d];
+      const std::ptrdiff_t s = velocity[d].stride(d);
+      const auto flux = [=](std::ptrdiff_t n) { return area[n] * faces.void_fraction(n) * u[n]; };
+      for_cells(divergence_,
+                [=](std::ptrdiff_t n) { change[n] += scale * (flux(n + s) - flux(n)); });
+    });
+  }
+  for (const std::ptrdiff_t cell : closed_cells_) change[cell] = 0.0;
+  const double largest = max_cells(divergence_, [=](std::ptrdiff_t n) {
+    return change[n] != 0.0 ? std::abs(change[n]) / (open[n] * eps[n]) : 0.0;
   });
   return max_over_ranks(domain_.decomposition, largest);
 }

@@ -12,12 +12,11 @@ namespace gasgrain::cfd {
 
 class Projection {
  public:
-  struct Report {
-    PressureReport solve;
-    double removed_mean = 0.0;     // largest of the singular regions, relative to the 1-norm of the
-                                   // right-hand side's terms
-    double swept_imbalance = 0.0;  // largest of the singular regions: volume that moving bodies
-                                   // leave to it minus what they take, over the sum of both
+  // Largest of the regions without outlet.
+  struct Balance {
+    double removed_mean = 0.0;     // of the right-hand side, relative to the 1-norm of its terms
+    double swept_imbalance = 0.0;  // volume that moving bodies leave to the region minus what they
+                                   // take, over the sum of both
   };
 
   Projection(const GasDomain& domain, const Numerics& numerics);
@@ -26,29 +25,37 @@ class Projection {
   // Collective.
   void find_regions();
 
-  // Solves for `pressure` (first guess in, ghosts filled out). `velocity` is u* with ghosts filled;
-  // `old_void_fraction` is eps of the cells at the start of the step. Throws UserError when the
-  // tolerance is missed or a region without outlet would have to gain or lose gas.
-  Report solve(const FaceMedium& medium, const Field& old_void_fraction,
-               const VectorField& velocity, double dt, Field& pressure);
+  // Coefficients and right-hand side of the pressure equation. `velocity` is u* with ghosts filled;
+  // `old_void_fraction` is eps of the cells at the start of the step, null when there were no
+  // grains then and there are none now. Throws UserError when a region without outlet would have
+  // to gain or lose gas.
+  Balance set_equation(const FaceMedium& medium, const Field* old_void_fraction,
+                       const VectorField& velocity, double dt);
 
-  // u = u* - (c/eps) grad p on the faces that take part.
-  void correct(VectorField& velocity, const FaceMedium& medium, double dt) const;
+  // Solves for `pressure` (first guess in, ghosts filled out). Throws UserError when the tolerance
+  // is missed.
+  PressureReport solve(Field& pressure);
+
+  // u = u* - (c/eps) grad p on the faces that take part; the mean of p becomes 0 in regions without
+  // outlet.
+  void correct(VectorField& velocity, Field& pressure, const FaceMedium& medium, double dt);
 
   // Goes on from a pressure of an earlier run, ghosts filled.
   void restore(const Field& pressure) { set_gradient(pressure); }
 
-  // grad p on faces, Pa/m, 0 on those that do not take part; ghosts filled. Of the last solve() or
-  // restore().
+  // grad p on faces, Pa/m, 0 on those that do not take part; ghosts filled. Of the last correct()
+  // or restore().
   const VectorField& pressure_gradient() const { return gradient_; }
 
   // Largest |change of the void + dt * outflow| of a cell over its void. Collective.
-  double divergence(const FaceMedium& medium, const Field& old_void_fraction,
-                    const VectorField& velocity, double dt) const;
+  double divergence(const FaceMedium& medium, const Field* old_void_fraction,
+                    const VectorField& velocity, double dt);
 
  private:
   void set_coefficients(const FaceMedium& medium, double dt);
-  void set_right_hand_side(const FaceMedium& medium, const Field& old_void_fraction,
+  template <class Faces>
+  void set_coefficients_along(int d, const Faces& faces);
+  void set_right_hand_side(const FaceMedium& medium, const Field* old_void_fraction,
                            const VectorField& velocity, double dt);
   void add_outlets();
   double remove_means(double dt);
@@ -57,13 +64,21 @@ class Projection {
   void check(const PressureReport& report) const;
   void set_gradient(const Field& pressure);
 
+  // What the pressure behind an outlet adds to the right-hand side of a cell.
+  struct OutletTerm {
+    std::ptrdiff_t cell;  // storage index
+    double value;         // m^3/s
+  };
+
   const GasDomain& domain_;
   double tolerance_;
   int max_iterations_;
   std::unique_ptr<PressureSolver> solver_;
   PressureSystem system_;
-  Field term_norm_;    // sum of |terms| of the right-hand side per cell
-  Field outlet_term_;  // coefficient times pressure of the outlets, m^3/s
+  Field term_norm_;   // sum of |terms| of the right-hand side per cell
+  Field divergence_;  // change of the void + dt * outflow per cell volume
+  std::vector<OutletTerm> outlet_terms_;
+  std::vector<std::ptrdiff_t> closed_cells_;  // storage indices: no open face, no equation
   GasRegions regions_;
   std::vector<double> region_means_, region_sums_, region_norms_, region_volumes_;
   Field swept_;  // volume that moving bodies leave to each cell, balanced, m^3/s

@@ -109,10 +109,11 @@ void RunDisplay::print_patches() const {
 }
 
 void RunDisplay::count(const StepReport& report) {
-  times_.predictor += report.times.predictor;
-  times_.boundary += report.times.boundary;
-  times_.pressure += report.times.pressure;
-  times_.correction += report.times.correction;
+  const auto wall = [&](Pass pass) { return report.times[static_cast<std::size_t>(pass)].wall; };
+  times_.predictor += wall(Pass::slope) + wall(Pass::medium) + wall(Pass::predict);
+  times_.boundary += wall(Pass::boundary);
+  times_.pressure += wall(Pass::equation) + wall(Pass::solve);
+  times_.correction += wall(Pass::correct) + wall(Pass::budget);
 }
 
 void RunDisplay::progress(const StepReport& report, double dt) const {

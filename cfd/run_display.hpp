@@ -10,6 +10,14 @@
 
 namespace gasgrain::cfd {
 
+// Wall time of the parts of a run, s.
+struct StepTimes {
+  double predictor = 0.0;   // convection, viscous stress, drag
+  double boundary = 0.0;    // sides and immersed bodies
+  double pressure = 0.0;    // coefficients and solve
+  double correction = 0.0;  // velocity, reports and budgets
+};
+
 class RunDisplay {
  public:
   // `end_time` [s] of the run. The solver stays alive.

@@ -36,10 +36,10 @@ AdamsBashforth adams_bashforth(double dt, double previous_dt) {
 Vec3 largest_speeds(const GasDomain& domain, const VectorField& velocity) {
   Vec3 largest = Vec3::Zero();
   for (int d = 0; d < 3; ++d) {
-    for_each_face(domain.decomposition, d, [&](int i, int j, int k) {
-      largest[d] = std::max(largest[d], std::abs(velocity[d](i, j, k)));
-    });
+    largest[d] = max_box(all_faces(domain, d), velocity[d],
+                         [u = velocity[d].data()](std::ptrdiff_t n) { return std::abs(u[n]); });
   }
+  if (domain.decomposition.size() == 1) return largest;
   MPI_Allreduce(MPI_IN_PLACE, largest.data(), 3, MPI_DOUBLE, MPI_MAX,
                 domain.decomposition.communicator());
   return largest;
