@@ -200,8 +200,8 @@ void BodyLoads::add_pressure(const Field& pressure, const VectorField& gradient,
 }
 
 void BodyLoads::finish(double dt) {
-  std::vector<double> values;
-  values.reserve(12 * loads_.size());
+  std::vector<double>& values = sums_;
+  values.clear();
   for (BodyLoad& load : loads_) {
     for (Vec3* part :
          {&load.pressure, &load.friction, &load.pressure_torque, &load.friction_torque})

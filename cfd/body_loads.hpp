@@ -53,6 +53,7 @@ class BodyLoads {
   std::vector<Cell> cells_;
   std::array<std::vector<Face>, 3> faces_;
   std::vector<BodyLoad> loads_;
+  std::vector<double> sums_;     // of all loads, over the ranks
   std::vector<Vec3> reference_;  // torque points of the bodies, m
   Vec3 stress_impulse_ = Vec3::Zero();
 };

@@ -54,8 +54,7 @@ const Field& join_lenders(Field& joined, const GasDomain& domain, int d, const F
 }
 
 void update_void_fraction(FaceMedium& medium, const GasDomain& domain, int d) {
-  Field joined;
-  const Field& cells = join_lenders(joined, domain, d, medium.cell_void_fraction);
+  const Field& cells = join_lenders(medium.joined[0], domain, d, medium.cell_void_fraction);
   const Index3& size = domain.size();
   IndexBox box{{-halo, -halo, -halo}, {size[0] + halo, size[1] + halo, size[2] + halo}};
   box.begin[d] += 1;  // the lowest ghost face has only one cell
@@ -71,9 +70,8 @@ void update_void_fraction(FaceMedium& medium, const GasDomain& domain, int d) {
 }
 
 void update_drag(FaceMedium& medium, const GasDomain& domain, const GrainPhase& grains, int d) {
-  Field joined_b, joined_bv;
-  const double* b = join_lenders(joined_b, domain, d, grains.momentum_exchange).data();
-  const double* bv = join_lenders(joined_bv, domain, d, grains.exchange_momentum[d]).data();
+  const double* b = join_lenders(medium.joined[0], domain, d, grains.momentum_exchange).data();
+  const double* bv = join_lenders(medium.joined[1], domain, d, grains.exchange_momentum[d]).data();
   const Weights w(domain, d);
   double* face_b = medium.momentum_exchange[d].data();
   double* face_bv = medium.exchange_momentum[d].data();

@@ -17,6 +17,7 @@ struct FaceMedium {
   EdgeVoidFraction edges;         // eps on cell edges
   VectorField momentum_exchange;  // B_f on owned faces, kg m^-3 s^-1
   VectorField exchange_momentum;  // (B v)_f on owned faces, kg m^-2 s^-2
+  std::array<Field, 2> joined;    // work space: cells' values joined with those of lenders
 };
 
 FaceMedium make_face_medium(const GasDomain& domain);

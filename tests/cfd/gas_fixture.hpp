@@ -73,18 +73,18 @@ inline void set_moving_heap(GasSolver& solver, double phase, double mean_solid, 
   const Decomposition& blocks = solver.decomposition();
   const Grid& grid = blocks.grid();
   Field shape(blocks.block().size);
-  double sum = 0.0, volume = 0.0;
+  long double own_sum = 0.0, own_volume = 0.0;  // exact enough for sealed vessels of many cells
   for_each_cell(shape.size(), [&](int i, int j, int k) {
     const Vec3 x =
         (cell_centre(blocks, i, j, k) - grid.lower).cwiseQuotient(grid.upper - grid.lower);
     const Vec3 centre(0.5 + 0.2 * std::sin(phase), 0.5, 0.4 + 0.15 * std::cos(1.3 * phase));
     shape(i, j, k) = 0.2 + std::exp(-8.0 * (x - centre).squaredNorm());
     const double open = 1.0 - solver.walls().wall_fraction(i, j, k);
-    sum += open * shape(i, j, k);
-    volume += open;
+    own_sum += open * shape(i, j, k);
+    own_volume += open;
   });
-  sum = sum_over_ranks(blocks, sum);
-  volume = sum_over_ranks(blocks, volume);
+  const double sum = sum_over_ranks(blocks, static_cast<double>(own_sum));
+  const double volume = sum_over_ranks(blocks, static_cast<double>(own_volume));
   GrainPhase& grains = solver.grains();
   for_each_cell(shape.size(), [&](int i, int j, int k) {
     const double solid = mean_solid * volume / sum * shape(i, j, k);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/shared/error.hpp"
 #include "tests/cfd/gas_fixture.hpp"
 
 namespace {
@@ -28,10 +29,10 @@ struct Options {
 };
 
 constexpr int warm_up_steps = 3;
-constexpr double courant_step = 2e-3;     // dt over the spacing, s/m
-constexpr double heap_speed = 0.3;        // phase per length of the shortest cell, see grains_at
-constexpr double mean_solid = 0.2;        // of the vessel's volume
-constexpr double drag_coefficient = 3e4;  // B over the solid fraction, kg m^-3 s^-1
+constexpr double step_per_spacing = 0.04;  // s/m
+constexpr double heap_speed = 30.0;        // phase per s: moves the heap at about 0.3 m/s
+constexpr double mean_solid = 0.2;         // of the vessel's volume
+constexpr double drag_coefficient = 3e4;   // B over the solid fraction, kg m^-3 s^-1
 
 PressureMethod method_of(const std::string& name) {
   if (name == "hypre-pfmg") return PressureMethod::hypre_pfmg;
@@ -123,9 +124,10 @@ void run(const Options& options) {
   GasSolver solver(make_case(options), MPI_COMM_WORLD);
   const Vec3 spacing = solver.decomposition().grid().spacing();
   const double smallest = std::min(spacing[0], spacing[2]);
+  const double dt = step_per_spacing * smallest;
   const auto set_grains = [&](int step) {
     if (!options.grains) return;
-    const double phase = heap_speed * step * courant_step * smallest / 0.05;
+    const double phase = heap_speed * step * dt;
     testing::set_moving_heap(solver, phase, mean_solid, options.drag ? drag_coefficient : 0.0);
   };
   set_grains(0);
@@ -135,7 +137,7 @@ void run(const Options& options) {
   int fallbacks = 0;
   for (int step = 1; step <= warm_up_steps + options.steps; ++step) {
     set_grains(step);
-    const StepReport report = solver.advance(courant_step * smallest);
+    const StepReport report = solver.advance(dt);
     if (step <= warm_up_steps) continue;
     samples.push_back(sample_of(report));
     iterations += double(report.pressure.iterations) / options.steps;
@@ -166,6 +168,9 @@ int main(int argc, char** argv) {
     run(options);
   } catch (const CLI::ParseError& error) {
     code = app.exit(error);
+  } catch (const gasgrain::UserError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    code = 1;
   }
   MPI_Finalize();
   return code;
