@@ -61,7 +61,12 @@ EdgeVoidFraction make_edge_void_fraction(const GasDomain& domain) {
 }
 
 void update(EdgeVoidFraction& edges, const GasDomain& domain, const Field& cells) {
-  for (std::size_t n = 0; n < cells.count(); ++n) edges.gas[n] = edges.share[n] * cells[n];
+  const double* share = edges.share.data();
+  const double* eps = cells.data();
+  double* gas = edges.gas.data();
+  const std::size_t count = cells.count();
+#pragma omp simd
+  for (std::size_t n = 0; n < count; ++n) gas[n] = share[n] * eps[n];
   for_each_cell_outside(domain, cells, [&](auto outside, auto inside, auto behind) {
     if (edges.share[inside] == 0.0 || edges.share[behind] == 0.0) return;
     const double on_side = void_fraction_on_side(cells[inside], cells[behind]);

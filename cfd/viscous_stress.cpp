@@ -33,6 +33,7 @@ void add_shear(Field& slope, const GasDomain& domain, const Edge& edge, const Ve
   const double h = domain.spacing[e], transposed = domain.solved[e] ? h / domain.spacing[d] : 0.0;
   const double scale = domain.gas.viscosity / (h * h);
   for_each_row(all_faces(domain, d), slope, [=](std::ptrdiff_t row, int length) {
+#pragma omp simd
     for (std::ptrdiff_t n = row; n < row + length; ++n) {
       const double hi = u[n + a] - u[n] + transposed * (v[n + a] - v[n + a - c]);
       const double lo = u[n] - u[n - a] + transposed * (v[n] - v[n - c]);
@@ -49,6 +50,7 @@ void add_normal_stress(Field& slope, const GasDomain& domain, const FaceMedium& 
   const std::ptrdiff_t c = slope.stride(d);
   const double scale = 2.0 * domain.gas.viscosity / (domain.spacing[d] * domain.spacing[d]);
   for_each_row(inner_faces(domain, d), slope, [=](std::ptrdiff_t row, int length) {
+#pragma omp simd
     for (std::ptrdiff_t n = row; n < row + length; ++n) {
       const double difference = eps[n] * (u[n + c] - u[n]) - eps[n - c] * (u[n] - u[n - c]);
       result[n] += scale * difference;
