@@ -20,7 +20,7 @@ VESSEL = {51200: (40, 8, 160), 409600: (80, 16, 320), 1045000: (109, 22, 436),
           4023000: (172, 34, 688)}
 DIE = {50653: (37, 37, 37), 1000000: (100, 100, 100)}
 METHODS = ["multigrid", "hypre-pfmg", "hypre-pfmg-rap", "hypre-smg", "hypre-boomeramg"]
-PASSES = ["slope", "medium", "predict", "equation", "solve", "correct", "budget"]
+PASSES = ["slope", "medium", "predict", "boundary", "equation", "solve", "correct", "budget"]
 ABSENT = [("all of it", []), ("no bodies", ["--geometry", "box"]), ("no drag", ["--no-drag"]),
           ("no grains", ["--no-grains"]), ("no viscosity", ["--no-viscosity"]),
           ("no bodies, no grains", ["--geometry", "box", "--no-grains"])]
