@@ -10,6 +10,13 @@ void StateCopy::Archive::number(const std::string& name, double& value) {
   partial_sums(name, {&value, 1});
 }
 
+void StateCopy::Archive::list(const std::string& name, std::vector<double>& values) {
+  std::size_t size = values.size();
+  number_of(name, size);
+  values.resize(size);
+  partial_sums(name, values);
+}
+
 void StateCopy::Archive::partial_sums(const std::string&, std::span<double> parts) {
   if (restores()) {
     GASGRAIN_ASSERT(at_ + parts.size() <= values_.size());

@@ -27,6 +27,8 @@ class StateArchive {
 
   // The same on every rank.
   virtual void number(const std::string& name, double& value) = 0;
+  // The same list on every rank, of any length.
+  virtual void list(const std::string& name, std::vector<double>& values) = 0;
   // This rank's parts of sums over all ranks. Restored on another number of ranks, rank 0 gets the
   // sums and the others zero.
   virtual void partial_sums(const std::string& name, std::span<double> parts) = 0;
@@ -69,6 +71,7 @@ class StateCopy {
         : values_(values), direction_(direction) {}
     bool restores() const override { return direction_ == Direction::restore; }
     void number(const std::string& name, double& value) override;
+    void list(const std::string& name, std::vector<double>& values) override;
     void partial_sums(const std::string& name, std::span<double> parts) override;
     void cells(const std::string& name, Field& field) override;
     void faces(const std::string& name, VectorField& field) override;

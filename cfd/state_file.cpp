@@ -22,6 +22,16 @@ void StateFile::number(const std::string& name, double& value) {
   }
 }
 
+void StateFile::list(const std::string& name, std::vector<double>& values) {
+  const std::string set = group_ + "/" + name;
+  if (restores()) {
+    values = file_.read<double>(set);
+  } else {
+    const std::uint64_t mine = decomposition_.rank() == 0 ? values.size() : 0;
+    file_.write(set, {.global = {values.size()}, .start = {0}, .count = {mine}}, values.data());
+  }
+}
+
 void StateFile::partial_sums(const std::string& name, std::span<double> parts) {
   const std::string set = group_ + "/" + name;
   const std::uint64_t rank = unsigned_of(decomposition_.rank());

@@ -24,6 +24,7 @@ class StateFile final : public StateArchive {
 
   bool restores() const override { return direction_ == StateDirection::restore; }
   void number(const std::string& name, double& value) override;
+  void list(const std::string& name, std::vector<double>& values) override;
   void partial_sums(const std::string& name, std::span<double> parts) override;
   void cells(const std::string& name, Field& field) override;
   void faces(const std::string& name, VectorField& field) override;

@@ -1,15 +1,24 @@
 #include "coupling/coupled_run.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <utility>
 
+#include "cfd/state_file.hpp"
+#include "coupling/files/collective_error.hpp"
+#include "coupling/files/hdf5_file.hpp"
 #include "coupling/run_report.hpp"
 #include "coupling/shared/error.hpp"
+#include "coupling/shared/text.hpp"
 
 namespace gasgrain::coupling {
 
 namespace {
 
+constexpr const char* state_content = "gasgrain coupled state";
+constexpr const char* state_group = "coupled";
 constexpr double rows_per_frame = 10;  // default of coupling.series_interval
 
 double series_interval(const CouplingOptions& options, const cfd::Output& output) {
@@ -52,18 +61,16 @@ CoupledRun::CoupledRun(const Case& settings, const std::string& directory, DemHo
       host_(host),
       communicator_(communicator),
       coupling_(case_.gas, case_.options, communicator),
+      directory_(output_directory(case_.gas.output, directory)),
       series_schedule_(series_interval(case_.options, case_.gas.output)),
       frame_schedule_(case_.gas.output.interval > 0 ? case_.gas.output.interval
                                                     : std::numeric_limits<double>::infinity()),
-      progress_schedule_(progress_interval(case_.options, case_.gas.output)) {
-  const std::string path = output_directory(case_.gas.output, directory);
-  if (!path.empty()) files_ = std::make_unique<RunFiles>(communicator, path);
-}
+      progress_schedule_(progress_interval(case_.options, case_.gas.output)) {}
 
 void CoupledRun::begin(std::span<Vec3> forces) {
   begun_ = true;
-  const Vec3 gravity = host_.gravity().isZero() ? case_.gas.gas.gravity : host_.gravity();
-  monitor_.emplace(coupling_.gas(), coupling_.deposition().open_fraction(), vertical_of(gravity));
+  if (!directory_.empty()) files_ = std::make_unique<RunFiles>(communicator_, directory_);
+  watch_bed();
   row_.exchange = coupling_.begin(forces, host_.records());
   held_force_ = row_.exchange.force_on_grains;
   audit_.begin(host_.totals(), case_.options.feedback);
@@ -84,7 +91,13 @@ void CoupledRun::begin(std::span<Vec3> forces) {
   continue_run();
 }
 
+void CoupledRun::watch_bed() {
+  const Vec3 gravity = host_.gravity().isZero() ? case_.gas.gas.gravity : host_.gravity();
+  monitor_.emplace(coupling_.gas(), coupling_.deposition().open_fraction(), vertical_of(gravity));
+}
+
 void CoupledRun::continue_run() {
+  if (!monitor_) watch_bed();    // restored
   applied_force_ = held_force_;  // the set-up of a run computes all forces anew
   start_clock();
   run_start_ = clock_;
@@ -129,14 +142,23 @@ void CoupledRun::observe_bed(const ExchangeReport& report) {
   statistics_.note(row_.bed, report);
 }
 
+void CoupledRun::collect_from_host() {
+  wall_impulse_ += host_.take_wall_impulse();
+  const plugins::LargestOverlap overlap = host_.take_largest_overlap();
+  overlap_.length = std::max(overlap_.length, overlap.length);
+  overlap_.relative = std::max(overlap_.relative, overlap.relative);
+}
+
 void CoupledRun::audit() {
   const int axis = monitor_->vertical().axis;
+  collect_from_host();
   row_.grains = host_.totals();
-  row_.balance = audit_.close(row_.grains, host_.take_wall_impulse(), host_.gravity());
+  row_.balance = audit_.close(row_.grains, wall_impulse_, host_.gravity());
+  wall_impulse_.setZero();
   const double weight = std::abs(row_.balance.grain_weight[axis]);
   row_.momentum_residual =
       weight > 0 ? row_.balance.residual[axis] / weight : row_.balance.residual[axis];
-  row_.overlap = host_.take_largest_overlap();
+  row_.overlap = std::exchange(overlap_, {});
   RunExtremes& extremes = statistics_.extremes;
   extremes.overlap.length = std::max(extremes.overlap.length, row_.overlap.length);
   extremes.overlap.relative = std::max(extremes.overlap.relative, row_.overlap.relative);
@@ -163,6 +185,70 @@ void CoupledRun::write_frame(double time) {
   if (!files_ || time <= last_frame_time_) return;
   files_->add_frame(time, coupling_.gas(), host_.grain_state());
   last_frame_time_ = time;
+}
+
+void CoupledRun::pause() {
+  stop_dem_clock();
+}
+
+// Under another name until it is complete: what is there under this one stays whole.
+void CoupledRun::save(const std::string& path) {
+  collect_from_host();
+  const std::string partial = path + ".partial";
+  Hdf5File file = Hdf5File::create(partial, communicator_);
+  file.write_attribute("content", std::string(state_content));
+  cfd::StateFile archive(file, state_group, coupling_.gas().decomposition(),
+                         cfd::StateDirection::save);
+  visit_state(archive);
+  file.flush();
+  file.close();
+  run_collectively(communicator_, [&] {
+    if (coupling_.gas().decomposition().rank() != 0) return;
+    std::error_code error;
+    std::filesystem::rename(partial, path, error);
+    if (error) throw UserError("cannot write '" + path + "': " + error.message());
+  });
+}
+
+void CoupledRun::restore(const std::string& path) {
+  Hdf5File file = Hdf5File::open(path, communicator_);
+  if (!file.has_attribute("content") || file.text_attribute("content") != state_content)
+    throw UserError("'" + path + "' holds no state of a coupled run");
+  cfd::StateFile archive(file, state_group, coupling_.gas().decomposition(),
+                         cfd::StateDirection::restore);
+  visit_state(archive);
+  file.close();
+  begun_ = true;
+  if (!directory_.empty())
+    files_ = std::make_unique<RunFiles>(communicator_, directory_, Series::resume, row_.time);
+  host_.print(text("Gas continues at t = %.6g s from %s\n", coupling_.gas().time(), path.c_str()));
+}
+
+void CoupledRun::visit_state(cfd::StateArchive& archive) {
+  coupling_.visit_state(archive);
+  audit_.visit_state(archive);
+  statistics_.visit_state(archive);
+  archive.number_of("exchange_dem_steps", interval_.dem_steps);
+  archive.number_of("steps_since_exchange", steps_since_exchange_);
+  archive.number("elapsed_since_exchange", elapsed_);
+  for (int d = 0; d < 3; ++d) {
+    const std::string axis(1, "xyz"[d]);
+    archive.number("held_force_" + axis, held_force_[d]);
+    archive.number("wall_impulse_" + axis, wall_impulse_[d]);
+  }
+  archive.number("overlap", overlap_.length);
+  archive.number("relative_overlap", overlap_.relative);
+  archive.number("last_frame_time", last_frame_time_);
+  archive.number("row_time", row_.time);
+  archive.number("row_height", row_.bed.height);
+  archive.number("row_pressure_drop", row_.bed.pressure_drop);
+  archive.number("row_weight", row_.bed.weight);
+  archive.number("row_weight_over_area", row_.weight_over_area);
+  archive.number("row_momentum_residual", row_.momentum_residual);
+  if (!archive.restores()) return;
+  row_.bed.time = row_.time;
+  for (Schedule* schedule : {&series_schedule_, &frame_schedule_, &progress_schedule_})
+    schedule->skip_to(row_.time);
 }
 
 void CoupledRun::finish_run() {

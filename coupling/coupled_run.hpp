@@ -8,6 +8,8 @@
 //   step_finished()     at the end of every DEM step; true when an exchange is due
 //   exchange()          when step_finished() said so
 //   finish_run()        at the end of every run
+//   pause()             instead, when the run goes on after a checkpoint
+//   save()              between runs; restore() instead of begin(), before the first set-up
 #pragma once
 
 #include <memory>
@@ -50,8 +52,15 @@ class CoupledRun {
   bool exchange_due() const { return steps_since_exchange_ + 1 >= interval_.dem_steps; }
   void exchange(std::span<Vec3> forces);
   void finish_run();
+  void pause();
+  // Everything but the grains and the forces they hold, into or from an HDF5 file. The host takes
+  // the forces along with the grains. restore() throws UserError when the file belongs to another
+  // grid.
+  void save(const std::string& path);
+  void restore(const std::string& path);
 
   const GasCoupling& coupling() const { return coupling_; }
+  const std::string& directory() const { return directory_; }  // of the output, "": none
   const RunStatistics& statistics() const { return statistics_; }
   const SeriesRow& latest() const { return row_; }
 
@@ -65,6 +74,9 @@ class CoupledRun {
 
   CoupledRun(const Case& settings, const std::string& directory, DemHost& host,
              MPI_Comm communicator);
+  void visit_state(cfd::StateArchive& archive);
+  void watch_bed();
+  void collect_from_host();
   void start_clock();
   void stop_dem_clock();
   void observe_bed(const ExchangeReport& report);
@@ -81,7 +93,8 @@ class CoupledRun {
   std::optional<BedMonitor> monitor_;  // from begin() on: gravity is known
   MomentumAudit audit_;
   RunStatistics statistics_;
-  std::unique_ptr<RunFiles> files_;  // null: no output directory
+  std::string directory_;            // of the output, "": none
+  std::unique_ptr<RunFiles> files_;  // from begin() or restore() on; null: no output directory
   Schedule series_schedule_, frame_schedule_, progress_schedule_;
   SeriesRow row_;
 
@@ -91,6 +104,8 @@ class CoupledRun {
   double elapsed_ = 0.0;               // s since the last exchange
   Vec3 held_force_ = Vec3::Zero();     // N, sum over the grains
   Vec3 applied_force_ = Vec3::Zero();  // the one in the integrator's present force
+  Vec3 wall_impulse_ = Vec3::Zero();   // N s, of walls on grains, collected since the last audit
+  plugins::LargestOverlap overlap_;    // likewise
   double last_frame_time_ = -1.0;      // s
   double clock_ = 0.0;                 // wall time at the start of the part under way
   double run_start_ = 0.0;

@@ -45,14 +45,7 @@ double relative(double residual, double magnitude) {
 }  // namespace
 
 void add(cfd::MomentumBudget& sum, const cfd::MomentumBudget& budget) {
-  using Row = Vec3 cfd::MomentumBudget::*;
-  using Budget = cfd::MomentumBudget;
-  for (const Row row :
-       {&Budget::stored, &Budget::pressure, &Budget::pressure_on_grains, &Budget::gravity,
-        &Budget::convection, &Budget::viscous, &Budget::drag, &Budget::body, &Budget::side_pressure,
-        &Budget::body_pressure, &Budget::body_stress}) {
-    sum.*row += budget.*row;
-  }
+  for (const MomentumRow row : momentum_rows) sum.*row += budget.*row;
 }
 
 void GasCoupling::measure(double interval) {

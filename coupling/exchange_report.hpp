@@ -1,10 +1,26 @@
 // What one exchange between gas and grains did, in numbers.
 #pragma once
 
+#include <array>
+
 #include "cfd/gas_solver.hpp"
 #include "coupling/coupling_interval.hpp"
 
 namespace gasgrain::coupling {
+
+using MomentumRow = Vec3 cfd::MomentumBudget::*;
+inline constexpr std::array<MomentumRow, 11> momentum_rows = {
+    &cfd::MomentumBudget::stored,
+    &cfd::MomentumBudget::pressure,
+    &cfd::MomentumBudget::pressure_on_grains,
+    &cfd::MomentumBudget::gravity,
+    &cfd::MomentumBudget::convection,
+    &cfd::MomentumBudget::viscous,
+    &cfd::MomentumBudget::drag,
+    &cfd::MomentumBudget::body,
+    &cfd::MomentumBudget::side_pressure,
+    &cfd::MomentumBudget::body_pressure,
+    &cfd::MomentumBudget::body_stress};
 
 // Adds all rows.
 void add(cfd::MomentumBudget& sum, const cfd::MomentumBudget& budget);

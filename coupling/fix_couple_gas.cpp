@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "coupling/shared/error.hpp"
+#include "liggghts_plugins/checkpoint.hpp"
 #include "liggghts_plugins/grain_wall.hpp"
 
 namespace gasgrain::coupling {
@@ -57,17 +58,22 @@ FixCoupleGas::FixCoupleGas(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char
   create_attribute = 1;
   vector_flag = 1;
   size_vector = 10;
+  restart_global = 1;
+  restart_peratom = 1;
   global_freq = 1;
   extvector = 0;
   MPI_Comm_dup(world, &communicator_);
   DemHost& host = *this;
   run_ = std::make_unique<CoupledRun>(given.case_file, given.directory, host, communicator_);
+  state_directory_ = run_->directory().empty() ? "." : run_->directory();
   grow_arrays(atom->nmax);
   atom->add_callback(0);
+  atom->add_callback(1);
 }
 
 FixCoupleGas::~FixCoupleGas() {
   atom->delete_callback(id, 0);
+  atom->delete_callback(id, 1);
   run_.reset();
   MPI_Comm_free(&communicator_);
 }
@@ -114,7 +120,48 @@ void FixCoupleGas::end_of_step() {
 }
 
 void FixCoupleGas::post_run() {
-  run_->finish_run();
+  if (plugins::run_goes_on(*lmp))
+    run_->pause();
+  else
+    run_->finish_run();
+}
+
+// Called by all ranks; the first one writes to `file`: the size in bytes, then the name.
+void FixCoupleGas::write_restart(FILE* file) {
+  const std::string checkpoint = plugins::checkpoint_directory(*lmp);
+  const std::string path = (checkpoint.empty() ? state_directory_ : checkpoint) + "/gas." +
+                           std::to_string(update->ntimestep) + ".state.h5";
+  if (run_->begun()) run_->save(path);
+  if (comm->me != 0) return;
+  const int size = run_->begun() ? static_cast<int>(path.size()) + 1 : 1;
+  std::fwrite(&size, sizeof(int), 1, file);
+  std::fwrite(run_->begun() ? path.c_str() : "", 1, size, file);
+}
+
+void FixCoupleGas::restart(char* buffer) {
+  const std::string path = buffer;
+  if (!path.empty()) run_->restore(path);
+}
+
+int FixCoupleGas::pack_restart(int i, double* buffer) {
+  buffer[0] = maxsize_restart();
+  for (int d = 0; d < 3; ++d) buffer[1 + d] = held_[i][d];
+  return maxsize_restart();
+}
+
+// `nth`: place of this fix among those whose values follow the atom's own, each with its length.
+void FixCoupleGas::unpack_restart(int i, int nth) {
+  const double* values = atom->extra[i];
+  for (int n = 0; n < nth; ++n) values += static_cast<int>(*values);
+  held_[i] = column(values + 1);
+}
+
+int FixCoupleGas::size_restart(int) {
+  return maxsize_restart();
+}
+
+int FixCoupleGas::maxsize_restart() {
+  return 4;
 }
 
 double FixCoupleGas::compute_vector(int index) {
@@ -206,8 +253,8 @@ Vec3 FixCoupleGas::gravity() const {
 }
 
 RunProgress FixCoupleGas::progress() const {
-  return {.done = static_cast<long>(update->ntimestep - update->firststep),
-          .total = static_cast<long>(update->laststep - update->firststep)};
+  return {.done = static_cast<long>(update->ntimestep - update->beginstep),
+          .total = static_cast<long>(update->endstep - update->beginstep)};
 }
 
 std::vector<std::string> FixCoupleGas::unmeasured_walls() const {

@@ -48,6 +48,15 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
   int unpack_exchange(int i, double* buffer) override;
   double memory_usage() override;
 
+  // Restart files: the held forces go with the grains, the rest into an HDF5 file whose name the
+  // restart file holds.
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
+  int pack_restart(int i, double* buffer) override;
+  void unpack_restart(int i, int nth) override;
+  int size_restart(int i) override;
+  int maxsize_restart() override;
+
   GasForce gas_force(int local_index) const override;
   const Vec3* held_forces() const override { return held_.data(); }
   void held_forces_applied() override;
@@ -74,7 +83,8 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
 
   MPI_Comm communicator_ = MPI_COMM_NULL;
   std::unique_ptr<CoupledRun> run_;
-  std::vector<Vec3> held_;  // N, per local atom
+  std::string state_directory_;  // for states when no checkpoint is under way
+  std::vector<Vec3> held_;       // N, per local atom
 };
 
 }  // namespace gasgrain::coupling

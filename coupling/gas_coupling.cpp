@@ -20,6 +20,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "cfd/halo_exchange.hpp"
 #include "cfd/loops.hpp"
 #include "coupling/shared/error.hpp"
 
@@ -111,6 +112,25 @@ void GasCoupling::move_bodies(double interval) {
   if (!gas_.move_bodies(gas_.time() + interval)) return;
   deposition_.set_walls(gas_.walls());
   find_closed_cells();
+}
+
+void GasCoupling::visit_state(cfd::StateArchive& archive) {
+  gas_.visit_state(archive);
+  archive.number("kernel_width", kernel_width_);
+  archive.number("kernel_diameter", kernel_diameter_);
+  archive.cells("deposited_void_fraction", void_fraction_);
+  for (int d = 0; d < 3; ++d) {
+    const std::string axis(1, "xyz"[d]);
+    archive.cells("felt_velocity_" + axis, velocity_[d]);
+    archive.cells("felt_pressure_gradient_" + axis, pressure_gradient_[d]);
+  }
+  if (!archive.restores()) return;
+  deposition_.set_walls(gas_.walls());
+  find_closed_cells();
+  const cfd::Decomposition& decomposition = gas_.decomposition();
+  cfd::fill_ghosts(decomposition, velocity_);
+  cfd::fill_ghosts(decomposition, pressure_gradient_);
+  if (kernel_width_ > 0.0) deposition_.set_width(kernel_width_);
 }
 
 void GasCoupling::send_grains_to_gas_ranks(std::span<const GrainRecord> grains) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cfd/gas_solver.hpp"
+#include "cfd/state_archive.hpp"
 #include "coupling/coupling_options.hpp"
 #include "coupling/exchange_report.hpp"
 #include "coupling/grain_transfer.hpp"
@@ -26,6 +27,10 @@ class GasCoupling {
   // The grains moved for `interval` [s]: advances the gas over it and returns the new forces.
   ExchangeReport exchange(std::span<Vec3> forces, std::span<const GrainRecord> grains,
                           double interval);
+
+  // Saves or restores all that enters later exchanges, without the forces that grains hold.
+  // Collective.
+  void visit_state(cfd::StateArchive& archive);
 
   const cfd::GasSolver& gas() const { return gas_; }
   const CouplingOptions& options() const { return options_; }

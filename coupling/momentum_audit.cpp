@@ -7,6 +7,8 @@
 // exchange shows in the residual.
 #include "coupling/momentum_audit.hpp"
 
+#include <string>
+
 namespace gasgrain::coupling {
 
 void MomentumAudit::begin(const GrainTotals& grains, Feedback feedback) {
@@ -20,6 +22,31 @@ void MomentumAudit::add_exchange(const ExchangeReport& report) {
   given_ += report.interval * report.force_on_grains;
   drag_on_walls_ += report.drag_on_walls;
   interval_ += report.interval;
+}
+
+namespace {
+
+void visit(cfd::StateArchive& archive, const std::string& name, Vec3& value) {
+  for (int d = 0; d < 3; ++d) archive.number(name + "_" + "xyz"[d], value[d]);
+}
+
+}  // namespace
+
+void visit_state(cfd::StateArchive& archive, GrainTotals& totals) {
+  archive.number_of("grain_count", totals.count);
+  archive.number("grain_mass", totals.mass);
+  visit(archive, "grain_momentum", totals.momentum);
+  archive.number("grain_kinetic_energy", totals.kinetic_energy);
+}
+
+void MomentumAudit::visit_state(cfd::StateArchive& archive) {
+  archive.number("audit_interval", interval_);
+  visit(archive, "given", given_);
+  visit(archive, "received", received_);
+  visit(archive, "drag_on_walls", drag_on_walls_);
+  coupling::visit_state(archive, last_);
+  for (std::size_t n = 0; n < momentum_rows.size(); ++n)
+    visit(archive, "gas_row_" + std::to_string(n), gas_.*momentum_rows[n]);
 }
 
 MomentumBalance MomentumAudit::close(const GrainTotals& now, const Vec3& walls,

@@ -1,6 +1,7 @@
 // Momentum balance of gas and grains together over an interval, from independently measured parts.
 #pragma once
 
+#include "cfd/state_archive.hpp"
 #include "coupling/coupling_options.hpp"
 #include "coupling/exchange_report.hpp"
 
@@ -33,6 +34,8 @@ struct MomentumBalance {
   Vec3 residual = Vec3::Zero();
 };
 
+void visit_state(cfd::StateArchive& archive, GrainTotals& totals);
+
 class MomentumAudit {
  public:
   // Starts the first interval. `feedback` one_way: the balance is that of the grains alone.
@@ -40,6 +43,9 @@ class MomentumAudit {
   void add_exchange(const ExchangeReport& report);
   // Impulse of the gas force that the integrator applied to the grains, N s.
   void add_received(const Vec3& impulse) { received_ += impulse; }
+
+  // The interval under way.
+  void visit_state(cfd::StateArchive& archive);
 
   // Balance since begin() or the last close(), and starts the next interval. `walls` is the impulse
   // of walls on grains since then, `gravity` in m/s^2.

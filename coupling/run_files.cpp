@@ -1,6 +1,7 @@
 #include "coupling/run_files.hpp"
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 
 #include "cfd/loops.hpp"
@@ -29,16 +30,16 @@ std::vector<double> owned_values(const std::vector<const cfd::Field*>& fields) {
 
 }  // namespace
 
-RunFiles::RunFiles(MPI_Comm communicator, const std::string& directory)
+RunFiles::RunFiles(MPI_Comm communicator, const std::string& directory, Series series, double from)
     : directory_(directory),
       rank_(rank_in(communicator)),
-      gas_frames_(communicator, directory, "gas"),
-      grain_frames_(communicator, directory, "grains") {
+      gas_frames_(communicator, directory, "gas", series),
+      grain_frames_(communicator, directory, "grains", series) {
   int failed = 0;
   if (rank_ == 0) {
     std::error_code ignored;  // an absent file is as good as a removed one
     std::filesystem::remove(directory_ + "/summary.json", ignored);
-    series_.open(directory_ + "/timeseries.csv");
+    open_series(series, from);
     failed = !series_;
   }
   MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
@@ -46,6 +47,24 @@ RunFiles::RunFiles(MPI_Comm communicator, const std::string& directory)
     throw UserError("cannot write '" + directory_ +
                     "/timeseries.csv'; check that the output directory is writable");
   }
+}
+
+// The first column of a row is its time; a row that was cut off by a kill has no line end.
+void RunFiles::open_series(Series series, double from) {
+  const std::string path = directory_ + "/timeseries.csv";
+  std::vector<std::string> kept;
+  if (series == Series::resume) {
+    std::ifstream old(path);
+    for (std::string line; std::getline(old, line) && !old.eof();) {
+      constexpr double rounding = 1e-9;  // of the printed time
+      if (kept.empty() || std::strtod(line.c_str(), nullptr) <= from * (1.0 + rounding))
+        kept.push_back(line);
+    }
+  }
+  series_.open(path);
+  for (const std::string& line : kept) series_ << line << '\n';
+  series_ << std::flush;
+  has_header_ = !kept.empty();
 }
 
 void RunFiles::add_row(const std::vector<NamedValue>& row) {

@@ -20,8 +20,10 @@ struct NamedValue {
 class RunFiles {
  public:
   // Collective. Creates the directory and removes a summary of an earlier run, so that nothing
-  // unfinished looks complete. Throws UserError on every rank.
-  RunFiles(MPI_Comm communicator, const std::string& directory);
+  // unfinished looks complete. Series::resume keeps the rows of timeseries.csv up to the time
+  // `from`, s, and the frames that are there. Throws UserError on every rank.
+  RunFiles(MPI_Comm communicator, const std::string& directory, Series series = Series::start_new,
+           double from = 0.0);
 
   // Appends a line to timeseries.csv; the first call fixes the columns. Rank 0 writes.
   void add_row(const std::vector<NamedValue>& row);
@@ -33,6 +35,8 @@ class RunFiles {
   const std::string& directory() const { return directory_; }
 
  private:
+  void open_series(Series series, double from);
+
   std::string directory_;
   int rank_;
   std::ofstream series_;

@@ -1,6 +1,7 @@
 #include "coupling/run_statistics.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace gasgrain::coupling {
 
@@ -20,6 +21,53 @@ void RunExtremes::note(const ExchangeReport& report) {
   divergence = std::max(divergence, report.divergence);
   removed_mean = std::max(removed_mean, report.removed_mean);
   smallest_void_fraction = std::min(smallest_void_fraction, report.smallest_void_fraction);
+}
+
+namespace {
+
+void visit(cfd::StateArchive& archive, const std::string& name, std::vector<TimedSample>& samples) {
+  std::vector<double> columns[3];
+  for (const TimedSample& sample : samples) {
+    columns[0].push_back(sample.time);
+    columns[1].push_back(sample.interval);
+    columns[2].push_back(sample.value);
+  }
+  const char* names[] = {"_time", "_interval", "_value"};
+  for (int c = 0; c < 3; ++c) archive.list(name + names[c], columns[c]);
+  if (!archive.restores()) return;
+  samples.clear();
+  for (std::size_t n = 0; n < columns[0].size(); ++n)
+    samples.push_back({columns[0][n], columns[1][n], columns[2][n]});
+}
+
+void visit(cfd::StateArchive& archive, RunExtremes& e) {
+  archive.number_of("exchanges", e.exchanges);
+  archive.number_of("gas_steps", e.gas_steps);
+  archive.number_of("pressure_iterations", e.pressure_iterations);
+  archive.number_of("limited", e.limited);
+  archive.number_of("grains_outside", e.grains_outside);
+  archive.number("shortest_interval", e.shortest_interval);
+  archive.number("longest_interval", e.longest_interval);
+  archive.number("third_law_residual", e.third_law_residual);
+  archive.number("pressure_residual", e.pressure_residual);
+  archive.number("solid_volume_residual", e.solid_volume_residual);
+  archive.number("divergence", e.divergence);
+  archive.number("removed_mean", e.removed_mean);
+  archive.number("momentum_residual", e.momentum_residual);
+  archive.number("largest_overlap", e.overlap.length);
+  archive.number("largest_relative_overlap", e.overlap.relative);
+  archive.number("smallest_void_fraction", e.smallest_void_fraction);
+}
+
+}  // namespace
+
+void RunStatistics::visit_state(cfd::StateArchive& archive) {
+  visit(archive, extremes);
+  visit(archive, "height", height);
+  visit(archive, "pressure_drop", pressure_drop);
+  visit(archive, "weight", weight);
+  archive.number("last_momentum_residual", last_momentum_residual);
+  archive.number("grain_steps", grain_steps);
 }
 
 void RunStatistics::note(const BedState& bed, const ExchangeReport& report) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cfd/state_archive.hpp"
 #include "coupling/batch_means.hpp"
 #include "coupling/momentum_audit.hpp"
 #include "liggghts_plugins/contact_statistics.hpp"
@@ -25,7 +26,8 @@ struct WallTimes {
 
 // Largest values (and a few sums) over the whole run.
 struct RunExtremes {
-  long exchanges = 0, gas_steps = 0, pressure_iterations = 0, pressure_fallbacks = 0, limited = 0, grains_outside = 0;
+  long exchanges = 0, gas_steps = 0, pressure_iterations = 0, pressure_fallbacks = 0, limited = 0,
+       grains_outside = 0;
   double shortest_interval = 0.0, longest_interval = 0.0;  // s
   double third_law_residual = 0.0, pressure_residual = 0.0, solid_volume_residual = 0.0;
   double divergence = 0.0, removed_mean = 0.0;
@@ -44,6 +46,8 @@ struct RunStatistics {
   WallTimes wall_times;
 
   void note(const BedState& bed, const ExchangeReport& report);
+  // All but the wall times.
+  void visit_state(cfd::StateArchive& archive);
 };
 
 }  // namespace gasgrain::coupling

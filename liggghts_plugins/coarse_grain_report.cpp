@@ -5,7 +5,6 @@
 #include <force.h>
 #include <lammps.h>
 #include <mpi.h>
-#include <run.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -14,6 +13,7 @@
 #include <string>
 
 #include "coupling/shared/error.hpp"
+#include "liggghts_plugins/checkpoint.hpp"
 #include "liggghts_plugins/engine/engine_mode.hpp"
 
 namespace gasgrain::plugins {
@@ -115,7 +115,7 @@ void check_and_print_coarse_graining(LAMMPS& lmp) {
 void run_with_report(LAMMPS* lmp, int argument_count, char** arguments) {
   if (lmp->domain) check_and_print_coarse_graining(*lmp);
   install_engine(*lmp);
-  LAMMPS_NS::Run(lmp).command(argument_count, arguments);
+  run_with_checkpoints(*lmp, argument_count, arguments);
 }
 
 }  // namespace gasgrain::plugins

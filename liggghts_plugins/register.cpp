@@ -1,5 +1,6 @@
 #include "liggghts_plugins/register.hpp"
 
+#include "liggghts_plugins/checkpoint.hpp"
 #include "liggghts_plugins/coarse_grain_report.hpp"
 #include "liggghts_plugins/coarsegraining.h"
 #include "liggghts_plugins/contact_model_cgm.hpp"
@@ -13,6 +14,7 @@ void register_styles(LAMMPS_NS::LAMMPS& lmp) {
   register_command(lmp, "coarsegraining", run_command<LAMMPS_NS::Coarsegraining>);
   register_command(lmp, "run", run_with_report);
   register_command(lmp, "gasgrain_engine", set_engine_mode);
+  register_command(lmp, "gasgrain_checkpoint", set_checkpoints);
   register_fix(lmp, "wall/sdf", create_fix<FixWallSdf>);
   describe_plugin_styles();
 }
@@ -31,6 +33,9 @@ void describe_plugin_styles() {
   describe_style({"gasgrain_engine off|auto|fused [kernel NAME]",
                   "whether grains are moved by the fused engine or by LIGGGHTS's own loop",
                   "docs/engine.md"});
+  describe_style({"gasgrain_checkpoint N DIR | off",
+                  "every N steps a checkpoint from which a run continues with the same bits",
+                  "docs/restart.md"});
 }
 
 }  // namespace gasgrain::plugins

@@ -1,0 +1,182 @@
+"""Checkpoints of coupled runs: a continued job has the bits of the one that wrote them."""
+
+import os
+import re
+import signal
+import subprocess
+import time
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import coupled_bed as bed
+from liggghts_run import ENVIRONMENT, GASGRAIN, MPIEXEC
+
+EXCHANGE = 'exchange_interval = 1e-4\nseries_interval = 1e-4\n'
+DUMP = ("dump d all custom 50 grains.dump id x y z vx vy vz omegax omegay omegaz fx fy fz\n"
+        "dump_modify d append yes format \"%d" + " %.17g" * 12 + "\"\n")
+
+
+def commands(runs, every=200):
+    return f"gasgrain_checkpoint {every} points\n{DUMP}{runs}"
+
+
+def start(runs, every=200):
+    return bed.script(commands(runs, every))
+
+
+def go_on(runs, every=200, file="points/latest.restart"):
+    return start(runs, every).replace("read_data grains.data", f"read_restart {file}")
+
+
+def case():
+    return bed.case(coupling=EXCHANGE, interval=2e-3)
+
+
+def frames(bench):
+    """Text of every whole frame. Of the step at which a job was continued the first one: the
+    set-up of a run shows the forces of the step to come."""
+    text = (bench.directory / "grains.dump").read_text()
+    found, before = {}, -1
+    for part in text.split("ITEM: TIMESTEP\n")[1:]:
+        step = int(part.split("\n", 1)[0])
+        whole = len(part.splitlines()) == 8 + int(part.split("\n", 3)[2])
+        if whole and not (step <= before and step in found):
+            found[step] = part
+        before = step
+    return found
+
+
+def frame_times(bench):
+    index = ElementTree.parse(bench.directory / "out" / "gas.xdmf")
+    return [float(time.get("Value")) for time in index.iter("Time")]
+
+
+def files(bench):
+    return sorted(os.listdir(bench.directory / "points"))
+
+
+class Restart(unittest.TestCase):
+    def whole(self, ranks, steps=1000):
+        bench = bed.bench(case())
+        bench.run(start(f"run {steps}"), ranks=ranks)
+        return bench
+
+    def assert_same(self, bench, whole):
+        self.assertEqual(frames(bench), frames(whole))
+        rows = [(b.directory / "out" / "timeseries.csv").read_text() for b in (bench, whole)]
+        self.assertEqual(*rows)
+        self.assertGreater(len(rows[0].splitlines()), 50)
+        results = [bed.quantities(b.directory) for b in (bench, whole)]
+        for name, value in results[1].items():
+            if not re.search("time|per_second|commit", name):
+                self.assertEqual(results[0][name], value, name)
+        # the job that ended showed its end as well
+        times = [frame_times(b) for b in (bench, whole)]
+        self.assertLessEqual(set(times[1]), set(times[0]))
+        self.assertEqual(times[0], sorted(set(times[0])))
+
+    def test_continued_job_has_the_bits_of_the_whole_one(self):
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                whole = self.whole(ranks)
+                self.assertEqual(files(whole), ["gas.1000.state.h5", "gas.800.state.h5",
+                                                "grains.1000.restart", "grains.800.restart",
+                                                "latest.restart"])
+                parts = bed.bench(case())
+                parts.run(start("run 400"), ranks=ranks)
+                done = parts.run(go_on("run 1000 upto"), ranks=ranks)
+                self.assertIn("Gas continues at t =", done.text)
+                self.assert_same(parts, whole)
+
+    def test_killed_job_continues_from_its_last_whole_checkpoint(self):
+        whole = self.whole(2)
+        bench = bed.bench(case())
+        process = self.start_process(bench, start("run 100000000"), 2)
+        self.wait_for(lambda: (bench.directory / "points" / "grains.600.restart").exists())
+        process.kill()
+        process.communicate()
+        subprocess.run(["pkill", "-9", "-f", str(bench.directory)], check=False)
+        time.sleep(0.5)
+        latest = os.readlink(bench.directory / "points" / "latest.restart")
+        step = int(latest.split(".")[1])
+        self.assertGreaterEqual(step, 600)
+        if step > 1000:
+            self.skipTest("the job was too fast to be caught")
+        if step < 1000:
+            bench.run(go_on("run 1000 upto"), ranks=2)
+        kept, expected = frames(bench), frames(whole)
+        self.assertEqual({n: kept[n] for n in expected}, expected)
+
+    def test_signal_writes_a_checkpoint_and_says_how_to_go_on(self):
+        bench = bed.bench(case())
+        process = self.start_process(bench, start("run 100000000", every=1000000), 2)
+        self.wait_for(lambda: (bench.directory / "out" / "timeseries.csv").exists() and len(
+            (bench.directory / "out" / "timeseries.csv").read_text().splitlines()) > 20)
+        process.send_signal(signal.SIGTERM)
+        text = process.communicate(timeout=120)[0]
+        self.assertIn("Ended by a signal at step", text)
+        self.assertIn("read_restart points/latest.restart", text)
+        before = len(bed.series(bench.directory))
+        bench.run(go_on("run 500", every=1000000), ranks=2)
+        rows = bed.series(bench.directory)
+        times = [row["time"] for row in rows]
+        self.assertGreater(len(rows), before)
+        self.assertEqual(times, sorted(set(times)))
+
+    def test_another_number_of_ranks_goes_on_correctly(self):
+        whole = self.whole(1, steps=440)
+        other = bed.bench(case())
+        other.run(start("run 400"), ranks=1)
+        other.run(go_on("run 440 upto"), ranks=3)
+        for row, expected in zip(bed.series(other.directory), bed.series(whole.directory),
+                                 strict=True):
+            for name in ("pressure_drop", "kinetic_energy", "bed_height"):
+                self.assertAlmostEqual(row[name], expected[name],
+                                       delta=1e-6 * max(abs(expected[name]), 1e-9), msg=name)
+
+    def test_stock_restart_files_carry_the_gas(self):
+        whole = bed.bench(case())
+        whole.run(bed.script(DUMP + "run 300\nwrite_restart a.restart\nrun 200"))
+        other = bed.bench(case())
+        other.run(bed.script(DUMP + "run 300\nwrite_restart a.restart\n"))
+        other.run(bed.script(DUMP + "run 200").replace("read_data grains.data",
+                                                       "read_restart a.restart"))
+        self.assertEqual(frames(other)[500], frames(whole)[500])
+
+    def test_bad_input(self):
+        for words, expected in (("0 points", "whole number > 0"), ("100", "a number of steps and a"),
+                                ("ten points", "whole number > 0")):
+            with self.subTest(words):
+                done = bed.bench(case()).run(bed.script(f"gasgrain_checkpoint {words}\nrun 1"),
+                                             check=False)
+                self.assertNotEqual(done.code, 0)
+                self.assertIn(expected, done.text)
+        done = bed.bench(case()).run(start("run 10 every 2 NULL"), check=False)
+        self.assertNotEqual(done.code, 0)
+        self.assertIn("keyword every cannot be divided", done.text)
+
+    def test_state_of_another_grid_is_refused(self):
+        bench = bed.bench(case())
+        bench.run(start("run 200"))
+        (bench.directory / "case.toml").write_text(case().replace("cells = [6, 4, 16]",
+                                                                  "cells = [6, 4, 20]"))
+        done = bench.run(go_on("run 10"), check=False)
+        self.assertNotEqual(done.code, 0)
+        self.assertIn("gas.200.state.h5", done.text)
+
+    def start_process(self, bench, script, ranks):
+        (bench.directory / "in.script").write_text(script)
+        return subprocess.Popen(
+            [MPIEXEC, "--oversubscribe", "-n", str(ranks), GASGRAIN, "-in", "in.script"],
+            cwd=bench.directory, env=ENVIRONMENT, stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+    def wait_for(self, condition, seconds=120):
+        end = time.monotonic() + seconds
+        while not condition():
+            self.assertLess(time.monotonic(), end, "timed out")
+            time.sleep(0.05)
+
+
+if __name__ == "__main__":
+    unittest.main()
