@@ -12,7 +12,9 @@
 FixStyle(couple/gas,gasgrain::coupling::FixCoupleGas)
 // clang-format on
 #else
-#pragma once
+// no #pragma once: the same file is read again under *_CLASS
+#ifndef GASGRAIN_FIX_COUPLE_GAS_H
+#define GASGRAIN_FIX_COUPLE_GAS_H
 
 #include <fix.h>
 
@@ -88,4 +90,5 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
 };
 
 }  // namespace gasgrain::coupling
+#endif
 #endif

@@ -7,7 +7,9 @@
 #ifdef COMMAND_CLASS
 CommandStyle(coarsegraining, Coarsegraining)
 #else
-#pragma once
+// no #pragma once: the same file is read again under *_CLASS
+#ifndef GASGRAIN_COARSEGRAINING_H
+#define GASGRAIN_COARSEGRAINING_H
 
 #include <pointers.h>
 
@@ -23,4 +25,5 @@ class Coarsegraining : protected Pointers {
 };
 
 }  // namespace LAMMPS_NS
+#endif
 #endif

@@ -1,6 +1,7 @@
 #include "liggghts_plugins/fix_wall_sdf.h"
 
 #include <atom.h>
+#include <domain.h>
 #include <modify.h>
 #include <mpi.h>
 #include <neighbor.h>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <sstream>
+#include <utility>
 
 #include "coupling/files/sdf_file.hpp"
 #include "coupling/shared/error.hpp"
@@ -20,10 +22,6 @@ namespace {
 
 using Column = Eigen::Map<Vec3>;
 using ConstColumn = Eigen::Map<const Vec3>;
-
-// Below this length of grad(phi) there is no wall normal (points equally far from several
-// surfaces).
-constexpr double smallest_gradient = 1e-3;
 
 TangentialModel tangential_model(const std::string& name, const std::string& where) {
   if (name == "history") return TangentialModel::history;
@@ -40,8 +38,9 @@ FixWallSdf::FixWallSdf(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char** a
       where_(std::string("fix ") + id + " wall/sdf") {
   if (!atom->sphere_flag || !atom->rmass)
     throw UserError(where_ + ": needs spheres with their own mass (atom_style sphere)");
-  const int used = read_body(argument_count, arguments);
-  read_options(argument_count - used, arguments + used);
+  const auto [body, used] = read_body(argument_count, arguments);
+  const int wall_type = read_options(argument_count - used, arguments + used);
+  wall_ = SdfWall(body, wall_type);
 
   vector_flag = 1;
   size_vector = static_cast<int>(totals_.size());
@@ -49,6 +48,9 @@ FixWallSdf::FixWallSdf(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char** a
   extvector = 1;
   restart_peratom = 1;
   create_attribute = 1;
+  // a wall that sweeps asks for new lists before it comes to grains that are no candidates
+  force_reneighbor = body.motion.sweeps() ? 1 : 0;
+  next_reneighbor = -1;
   grow_arrays(atom->nmax);
   atom->add_callback(0);
   atom->add_callback(1);
@@ -59,28 +61,31 @@ FixWallSdf::~FixWallSdf() {
   atom->delete_callback(id, 1);
 }
 
-// Reads `body FILE` or `case FILE body NAME`; returns the number of arguments used so far.
-int FixWallSdf::read_body(int argument_count, char** arguments) {
+// Reads `body FILE` or `case FILE body NAME`; returns the number of arguments used so far, too.
+std::pair<Body, int> FixWallSdf::read_body(int argument_count, char** arguments) const {
   const auto is = [&](int i, const char* word) {
     return i + 1 < argument_count && std::strcmp(arguments[i], word) == 0;
   };
   if (is(3, "body")) {
-    body_.name = arguments[4];
-    body_.shape = load_sdf_shape(arguments[4]);
-    return 5;
+    Body body;
+    body.name = arguments[4];
+    body.shape = load_sdf_shape(arguments[4]);
+    return {body, 5};
   }
   if (is(3, "case") && is(5, "body")) {
     const ConfigTable case_file = ConfigTable::parse_file(arguments[4]);
-    body_ = find_body(read_bodies(case_file, load_sdf_shape), arguments[6]);
-    if (!body_.acts_on_grains)
-      throw UserError(where_ + ": body '" + body_.name + "' of " + arguments[4] +
+    const Body body = find_body(read_bodies(case_file, load_sdf_shape), arguments[6]);
+    if (!body.acts_on_grains)
+      throw UserError(where_ + ": body '" + body.name + "' of " + arguments[4] +
                       " does not act on grains");
-    return 7;
+    return {body, 7};
   }
   throw UserError(where_ + ": expects `body FILE.h5 type T` or `case CASE.toml body NAME type T`");
 }
 
-void FixWallSdf::read_options(int argument_count, char** arguments) {
+// Returns the wall's atom type.
+int FixWallSdf::read_options(int argument_count, char** arguments) {
+  int wall_type = 0;
   for (int i = 0; i < argument_count; i += 2) {
     const std::string keyword = arguments[i];
     if (i + 1 >= argument_count) throw UserError(where_ + ": no value after '" + keyword + "'");
@@ -90,7 +95,7 @@ void FixWallSdf::read_options(int argument_count, char** arguments) {
       if (!(type >= 1 && type <= atom->ntypes && type == std::floor(type)))
         throw UserError(where_ + ": type = " + value + " is not an atom type in 1.." +
                         std::to_string(atom->ntypes) + " (create_box)");
-      wall_type_ = static_cast<int>(type);
+      wall_type = static_cast<int>(type);
     } else if (keyword == "tangential") {
       settings_.tangential = tangential_model(value, where_);
     } else if (keyword == "stiffness_exponent") {
@@ -101,9 +106,10 @@ void FixWallSdf::read_options(int argument_count, char** arguments) {
                       "' (known: type, tangential, stiffness_exponent)");
     }
   }
-  if (wall_type_ == 0)
+  if (wall_type == 0)
     throw UserError(where_ +
                     ": missing `type T`, the atom type whose contact properties the wall has");
+  return wall_type;
 }
 
 int FixWallSdf::setmask() {
@@ -115,7 +121,7 @@ void FixWallSdf::init() {
     throw UserError(where_ + ": rigid bodies and multispheres are not supported");
   const ContactSettings* pair = pair_settings(*lmp);
   if (!own_exponent_ && pair) settings_.stiffness_exponent = pair->stiffness_exponent;
-  contacts_ = GrainContactTable(*lmp, settings_, where_.c_str());
+  wall_.set_contacts(GrainContactTable(*lmp, settings_, where_.c_str()));
   refuse_unresolved_grains();
 }
 
@@ -124,10 +130,10 @@ void FixWallSdf::init() {
 void FixWallSdf::refuse_unresolved_grains() const {
   double radius = 0.0, smallest_radius = 0.0;
   modify->max_min_rad(radius, smallest_radius);  // over all ranks
-  if (radius <= body_.shape->resolved_range()) return;
+  if (radius <= wall_.body().shape->resolved_range()) return;
   std::ostringstream message;
-  message << where_ << ": body '" << body_.name << "' is sampled with a band of "
-          << body_.shape->resolved_range() << " m, but grains have a radius of " << radius
+  message << where_ << ": body '" << wall_.body().name << "' is sampled with a band of "
+          << wall_.body().shape->resolved_range() << " m, but grains have a radius of " << radius
           << " m; sample it with a band of at least the largest grain radius";
   throw UserError(message.str());
 }
@@ -136,23 +142,50 @@ void FixWallSdf::setup(int vflag) {
   post_force(vflag);
 }
 
+void FixWallSdf::place_wall() {
+  wall_.set_time(update->get_cur_time(), update->dt);
+}
+
+double FixWallSdf::fastest_sweep() const {
+  return wall_.fastest_sweep(ConstColumn(domain->boxlo), ConstColumn(domain->boxhi));
+}
+
+double FixWallSdf::step_duration() const {
+  return update->dt;
+}
+
+int FixWallSdf::tag(int i) const {
+  return atom->tag[i];
+}
+
 // Grains move less than the skin until the lists are built again, and the distance changes by no
-// more than they move, so all others cost nothing.
+// more than they move, so all others cost nothing. A wall that sweeps may come nearer by a grain
+// radius more before it asks for new lists.
 void FixWallSdf::pre_neighbor() {
+  place_wall();
+  const double speed = fastest_sweep();
+  double way = 0.0, smallest_radius = 0.0;
+  if (speed > 0) {
+    modify->max_min_rad(way, smallest_radius);
+    next_reneighbor = update->ntimestep + std::max(1, static_cast<int>(way / (speed * update->dt)));
+  }
   candidates_.clear();
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const double reach = atom->radius[i] + neighbor->skin;
-    if (body_.shape->distance(ConstColumn(atom->x[i])) < reach)
+    const double reach = atom->radius[i] + neighbor->skin + way;
+    if (wall_.distance(ConstColumn(atom->x[i])) < reach) {
       candidates_.push_back(i);
-    else
+    } else {
       displacement_[i].setZero();
+      wall_.forget(atom->tag[i]);
+    }
   }
 }
 
 void FixWallSdf::post_force(int) {
   load_ = {};
   totals_valid_ = false;
+  place_wall();
   const TangentialStep step{update->setupflag ? History::keep : History::advance, update->dt};
   with_tangential_model(settings_.tangential,
                         [&]<TangentialModel model>() { apply_contacts<model>(step); });
@@ -163,7 +196,7 @@ void FixWallSdf::post_force(int) {
   contact_statistics().note(load_.largest);
 }
 
-void FixWallSdf::record_step(const Load& load) {
+void FixWallSdf::record_step(const WallLoad& load) {
   load_ = load;
   totals_valid_ = false;
   impulse_.add_step(load_.force, update->dt);
@@ -173,44 +206,18 @@ void FixWallSdf::record_step(const Load& load) {
 template <TangentialModel tangential>
 void FixWallSdf::apply_contacts(const TangentialStep& step) {
   for (const int i : candidates_) {
-    const DistanceSample wall = body_.shape->sample(ConstColumn(atom->x[i]));
-    const bool touches = wall.distance < atom->radius[i] &&
-                         wall.gradient.squaredNorm() > smallest_gradient * smallest_gradient;
-    if (touches)
-      apply_contact<tangential>(i, wall, step);
-    else
-      displacement_[i].setZero();
+    const GrainAtWall grain{.tag = atom->tag[i],
+                            .type = atom->type[i],
+                            .radius = atom->radius[i],
+                            .mass = atom->rmass[i],
+                            .position = ConstColumn(atom->x[i]),
+                            .velocity = ConstColumn(atom->v[i]),
+                            .spin = ConstColumn(atom->omega[i])};
+    const WallTouch touch = wall_.touch<tangential>(grain, displacement_[i], step, load_);
+    if (!touch.touches) continue;
+    Column(atom->f[i]) += touch.force;
+    Column(atom->torque[i]) += touch.torque;
   }
-}
-
-template <TangentialModel tangential>
-void FixWallSdf::apply_contact(int i, const DistanceSample& wall, const TangentialStep& step) {
-  const double radius = atom->radius[i];
-  const double overlap = radius - wall.distance;
-  const double gradient = wall.gradient.norm();
-  const Vec3 n = wall.gradient / gradient;
-  const double lever = radius - 0.5 * overlap;
-  const ContactState state{.n = n,
-                           .overlap = gradient * overlap,
-                           .relative_velocity = ConstColumn(atom->v[i]) - body_.surface_velocity,
-                           .lever_spin = lever * ConstColumn(atom->omega[i])};
-  const ContactCoefficients c =
-      contacts_(atom->type[i], wall_type_).first_against_fixed(atom->rmass[i]);
-  const ContactForce f = contact_force<tangential>(c, state, displacement_[i], step);
-  Column(atom->f[i]) += f.force;
-  Column(atom->torque[i]) += lever * f.moment;
-
-  load_.add(f.force, ConstColumn(atom->x[i]) - lever * n,
-            {.length = overlap, .relative = overlap / (2.0 * radius)});
-}
-
-void FixWallSdf::Load::add(const Vec3& force_on_grain, const Vec3& point,
-                           const LargestOverlap& overlap) {
-  force -= force_on_grain;
-  torque -= point.cross(force_on_grain);
-  contacts += 1;
-  largest.length = std::max(largest.length, overlap.length);
-  largest.relative = std::max(largest.relative, overlap.relative);
 }
 
 double FixWallSdf::compute_vector(int index) {
@@ -238,20 +245,52 @@ void FixWallSdf::set_arrays(int i) {
   displacement_[i].setZero();
 }
 
+// The spring of a single contact, the number of springs of several contacts, and each of those.
+std::vector<double> FixWallSdf::packed_springs(int i) const {
+  const Vec3& own = displacement_[i];
+  std::vector<double> values{own[0], own[1], own[2], 0.0};
+  if (const std::vector<EdgeSpring>* springs = wall_.edge_springs(atom->tag[i])) {
+    values[3] = static_cast<double>(springs->size());
+    for (const EdgeSpring& spring : *springs)
+      for (const Vec3& v : {spring.normal, spring.displacement})
+        values.insert(values.end(), v.begin(), v.end());
+  }
+  return values;
+}
+
+void FixWallSdf::unpack_springs(int i, const double* values) {
+  displacement_[i] = ConstColumn(values);
+  std::vector<EdgeSpring> springs(static_cast<std::size_t>(values[3]));
+  for (std::size_t n = 0; n < springs.size(); ++n)
+    springs[n] = {ConstColumn(values + 4 + 6 * n), ConstColumn(values + 7 + 6 * n)};
+  wall_.set_edge_springs(atom->tag[i], std::move(springs));
+}
+
 int FixWallSdf::pack_exchange(int i, double* buffer) {
-  Column{buffer} = displacement_[i];
-  return 3;
+  const std::vector<double> values = packed_springs(i);
+  std::copy(values.begin(), values.end(), buffer);
+  wall_.forget(atom->tag[i]);
+  return static_cast<int>(values.size());
 }
 
 int FixWallSdf::unpack_exchange(int i, double* buffer) {
-  displacement_[i] = Column(buffer);
-  return 3;
+  unpack_springs(i, buffer);
+  return 4 + 6 * static_cast<int>(buffer[3]);
+}
+
+int FixWallSdf::size_restart(int i) {
+  return 1 + static_cast<int>(packed_springs(i).size());
+}
+
+int FixWallSdf::maxsize_restart() {
+  return 1 + 4 + 6 * NearSurfaces::most;
 }
 
 int FixWallSdf::pack_restart(int i, double* buffer) {
-  buffer[0] = size_restart(i);
-  Column(buffer + 1) = displacement_[i];
-  return size_restart(i);
+  const std::vector<double> values = packed_springs(i);
+  buffer[0] = 1.0 + static_cast<double>(values.size());
+  std::copy(values.begin(), values.end(), buffer + 1);
+  return 1 + static_cast<int>(values.size());
 }
 
 // LIGGGHTS keeps the restart values of all fixes of an atom one after the other, each set beginning
@@ -259,7 +298,7 @@ int FixWallSdf::pack_restart(int i, double* buffer) {
 void FixWallSdf::unpack_restart(int i, int nth) {
   const double* values = atom->extra[i];
   for (int k = 0; k < nth; ++k) values += static_cast<int>(values[0]);
-  displacement_[i] = ConstColumn(values + 1);
+  unpack_springs(i, values + 1);
 }
 
 double FixWallSdf::memory_usage() {

@@ -2,36 +2,33 @@
 // fix ID group wall/sdf case CASE.toml body NAME type T
 //     [tangential history|no_history|off] [stiffness_exponent n]
 //
-// A wall from a signed distance field phi > 0 in the flow domain (eq 17-20):
-//   contact while phi < r,   F_n = k (r - phi) grad(phi) - eta v_n n,   n = grad(phi)/|grad(phi)|
-// with the exact gradient of the field as it is stored, so that the elastic force is the gradient
-// of the potential 1/2 k (r - phi)^2 and conserves energy. k, eta, friction: pair (grain type, T)
-// of the contact law (contact_law.hpp), scaled with the grain's l.
+// A wall from a signed distance field phi > 0 in the flow domain (sdf_wall.hpp): at rest or moving
+// as the body's `motion` says. k, eta, friction: pair (grain type, T) of the contact law
+// (contact_law.hpp), scaled with the grain's l. One fix is one body.
 //
-// One fix is one body; a grain may touch several bodies at once, so walls that meet at a concave
-// corner belong into different bodies.
-//
-// Vector output f_ID[1..8]: force of the grains on the body (3, N), its torque about the origin
-// (3, N m), number of contacts, largest overlap (m) of the present step.
+// Vector output f_ID[1..8]: force of the grains on the body (3, N), its torque about the body's
+// torque point (3, N m), number of contacts, largest overlap (m) of the present step.
 #ifdef FIX_CLASS
 // clang-format off
 FixStyle(wall/sdf,gasgrain::plugins::FixWallSdf)
 // clang-format on
 #else
-#pragma once
+// no #pragma once: the same file is read again under *_CLASS
+#ifndef GASGRAIN_FIX_WALL_SDF_H
+#define GASGRAIN_FIX_WALL_SDF_H
 
 #include <fix.h>
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupling/shared/body.hpp"
 #include "liggghts_plugins/contact_properties.hpp"
 #include "liggghts_plugins/contact_settings.hpp"
-#include "liggghts_plugins/contact_statistics.hpp"
 #include "liggghts_plugins/grain_wall.hpp"
-#include "liggghts_plugins/sphere_contact.hpp"
+#include "liggghts_plugins/sdf_wall.hpp"
 
 namespace gasgrain::plugins {
 
@@ -47,8 +44,8 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   void pre_neighbor() override;
   void post_force(int vflag) override;
   double compute_vector(int index) override;
-  int min_type() override { return wall_type_; }
-  int max_type() override { return wall_type_; }
+  int min_type() override { return wall_.wall_type(); }
+  int max_type() override { return wall_.wall_type(); }
 
   // Per-atom tangential history: moves, is sorted, exchanged and restarted with the atom.
   void grow_arrays(int count) override;
@@ -58,57 +55,50 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   int unpack_exchange(int i, double* buffer) override;
   int pack_restart(int i, double* buffer) override;
   void unpack_restart(int i, int nth) override;
-  int size_restart(int) override { return 4; }
-  int maxsize_restart() override { return 4; }
+  int size_restart(int i) override;
+  int maxsize_restart() override;
   double memory_usage() override;
 
-  const Body& body() const { return body_; }
   std::string wall_name() const override { return id; }
   Vec3 take_impulse() override { return impulse_.take(); }
 
   // For the fused engine, which computes the contacts itself between reneighbourings.
-  int wall_type() const { return wall_type_; }
+  SdfWall& wall() { return wall_; }
   TangentialModel tangential() const { return settings_.tangential; }
-  const GrainContactTable& contacts() const { return contacts_; }
+  int tag(int i) const;
+  // Puts the wall where it is in the present step.
+  void place_wall();
+  double step_duration() const;  // s
+  // Fastest that the wall sweeps through the simulation box, m/s.
+  double fastest_sweep() const;
   const std::vector<int>& candidates() const { return candidates_; }  // ascending local indices
   std::vector<Vec3>& displacements() { return displacement_; }        // of every local atom, m
 
-  // Sums over the contacts of this rank in one step.
-  struct Load {
-    Vec3 force = Vec3::Zero();   // on the body, N
-    Vec3 torque = Vec3::Zero();  // on the body about the origin, N m
-    double contacts = 0;
-    LargestOverlap largest;
-    // `force` acts on a grain at `point`.
-    void add(const Vec3& force_on_grain, const Vec3& point, const LargestOverlap& overlap);
-  };
   // Makes `load` that of the present step; not in the set-up of a run.
-  void record_step(const Load& load);
+  void record_step(const WallLoad& load);
 
  private:
-
-  int read_body(int argument_count, char** arguments);
-  void read_options(int argument_count, char** arguments);
+  std::pair<Body, int> read_body(int argument_count, char** arguments) const;
+  int read_options(int argument_count, char** arguments);
   void refuse_unresolved_grains() const;
   template <TangentialModel tangential>
   void apply_contacts(const TangentialStep& step);
-  template <TangentialModel tangential>
-  void apply_contact(int i, const DistanceSample& wall, const TangentialStep& step);
+  std::vector<double> packed_springs(int i) const;
+  void unpack_springs(int i, const double* values);
 
   std::string where_;
-  Body body_;
-  int wall_type_ = 0;
+  SdfWall wall_;
   ContactSettings settings_;
   bool own_exponent_ = false;
-  GrainContactTable contacts_;
 
   std::vector<Vec3> displacement_;  // tangential spring of each local atom, m
   std::vector<int> candidates_;     // local atoms that may touch until the next reneighbouring
-  Load load_;
+  WallLoad load_;
   std::array<double, 8> totals_{};  // over all ranks
   bool totals_valid_ = false;
   WallImpulse impulse_;
 };
 
 }  // namespace gasgrain::plugins
+#endif
 #endif

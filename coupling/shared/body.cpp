@@ -60,6 +60,29 @@ Shape read_cylinder(const ConfigTable& table) {
   return make_shape(cylinder);
 }
 
+Shape read_cone(const ConfigTable& table) {
+  const Vec3 start = table.vector("start"), end = table.vector("end");
+  if (start == end) table.fail("end", "must differ from `start`");
+  const Cone cone{.start = start,
+                  .axis = (end - start).normalized(),
+                  .length = (end - start).norm(),
+                  .start_radius = table.number("start_radius", Range::non_negative()),
+                  .end_radius = table.number("end_radius", Range::non_negative())};
+  if (cone.start_radius + cone.end_radius == 0.0)
+    table.fail("end_radius", "and `start_radius` must not both be zero");
+  return make_shape(cone);
+}
+
+Shape read_torus(const ConfigTable& table) {
+  const double radius = table.number("radius", Range::positive());
+  return make_shape(Torus{
+      .center = table.vector("center"),
+      .axis = direction(table, "axis"),
+      .radius = radius,
+      .tube_radius = table.number(
+          "tube_radius", {.lower = 0, .upper = radius, .lower_open = true, .upper_open = true})});
+}
+
 Shape read_sphere(const ConfigTable& table) {
   return make_shape(Sphere{.center = table.vector("center"),
                            .radius = table.number("radius", Range::positive())});
@@ -117,14 +140,14 @@ Shape read_primitive(const ConfigTable& table, const std::string& key, const Rea
 }
 
 constexpr const char* shape_keys =
-    "plane, box, cylinder, sphere, stl, union, intersection, difference, "
+    "plane, box, cylinder, cone, sphere, torus, stl, union, intersection, difference, "
     "complement or file";
 
 // The one shape key of a table; the caller rejects unknown keys afterwards.
 std::string shape_key(const ConfigTable& table) {
   std::string found;
-  for (const char* key : {"plane", "box", "cylinder", "sphere", "stl", "union", "intersection",
-                          "difference", "complement", "file"}) {
+  for (const char* key : {"plane", "box", "cylinder", "cone", "sphere", "torus", "stl", "union",
+                          "intersection", "difference", "complement", "file"}) {
     if (!table.has(key)) continue;
     if (!found.empty()) {
       table.fail(key, "is a second shape beside '" + found +
@@ -148,6 +171,8 @@ Shape read_shape(const ConfigTable& table, ShapeFileLoader load_file) {
   if (key == "box") return read_primitive(table, key, read_box);
   if (key == "cylinder") return read_primitive(table, key, read_cylinder);
   if (key == "sphere") return read_primitive(table, key, read_sphere);
+  if (key == "cone") return read_primitive(table, key, read_cone);
+  if (key == "torus") return read_primitive(table, key, read_torus);
   if (key == "stl") return read_primitive(table, key, read_stl_shape);
   if (key == "union") return make_union(read_parts(table, key, 1, load_file));
   if (key == "intersection") return make_intersection(read_parts(table, key, 1, load_file));

@@ -7,6 +7,7 @@
 #include "coupling/shared/boolean_shapes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "coupling/shared/error.hpp"
@@ -54,6 +55,56 @@ double resolved_range(const std::vector<Shape>& parts) {
   for (const Shape& part : parts) range = std::min(range, part->resolved_range());
   return range;
 }
+// Surfaces of the parts are those of the whole where their nearest point lies on it: neither
+// covered by another part (union) nor cut away by it (intersection). The nearest one is always
+// kept.
+void add_surfaces_of_parts(const SignedDistance& whole, const std::vector<Shape>& parts,
+                           const Vec3& x, double reach, NearSurfaces& found) {
+  constexpr double tolerance = 1e-3;  // of the reach
+  NearSurfaces all;
+  for (const Shape& part : parts) part->add_near_surfaces(x, reach, all);
+  const int before = found.count;
+  for (int n = 0; n < all.count; ++n) {
+    const DistanceSample& own = all.surface[n];
+    const double gradient = own.gradient.squaredNorm();
+    if (gradient == 0.0) continue;
+    const Vec3 foot = x - own.distance / gradient * own.gradient;
+    if (std::abs(whole.distance(foot)) <= tolerance * reach) found.add(own);
+  }
+  if (found.count > before) return;
+  const DistanceSample nearest = whole.sample(x);
+  if (std::abs(nearest.distance) < reach) found.add(nearest);
+}
+
+bool has_several_contacts(const std::vector<Shape>& parts) {
+  return parts.size() > 1 || parts.front()->has_several_contacts();
+}
+bool has_several_contacts(const Union& solid) {
+  return has_several_contacts(solid.parts);
+}
+bool has_several_contacts(const Intersection& solid) {
+  return has_several_contacts(solid.parts);
+}
+bool has_several_contacts(const Complement& solid) {
+  return solid.shape->has_several_contacts();
+}
+
+void add_near_surfaces(const SignedDistance& whole, const Union& solid, const Vec3& x, double reach,
+                       NearSurfaces& found) {
+  add_surfaces_of_parts(whole, solid.parts, x, reach, found);
+}
+void add_near_surfaces(const SignedDistance& whole, const Intersection& solid, const Vec3& x,
+                       double reach, NearSurfaces& found) {
+  add_surfaces_of_parts(whole, solid.parts, x, reach, found);
+}
+void add_near_surfaces(const SignedDistance&, const Complement& solid, const Vec3& x, double reach,
+                       NearSurfaces& found) {
+  const int before = found.count;
+  solid.shape->add_near_surfaces(x, reach, found);
+  for (int n = before; n < found.count; ++n)
+    found.surface[n] = {-found.surface[n].distance, -found.surface[n].gradient};
+}
+
 double steepest_gradient(const std::vector<Shape>& parts) {
   double steepest = 0.0;
   for (const Shape& part : parts) steepest = std::max(steepest, part->steepest_gradient());
@@ -100,6 +151,12 @@ class BooleanShape final : public MeasuredShape<Solid> {
   using MeasuredShape<Solid>::MeasuredShape;
   double resolved_range() const override { return gasgrain::resolved_range(this->solid_); }
   double steepest_gradient() const override { return gasgrain::steepest_gradient(this->solid_); }
+  bool has_several_contacts() const override {
+    return gasgrain::has_several_contacts(this->solid_);
+  }
+  void add_near_surfaces(const Vec3& x, double reach, NearSurfaces& found) const override {
+    gasgrain::add_near_surfaces(*this, this->solid_, x, reach, found);
+  }
   std::string remarks() const override { return gasgrain::remarks(this->solid_); }
 };
 

@@ -79,6 +79,8 @@ class SampledDistance final : public SignedDistance {
   DistanceSample sample(const Vec3& x) const override;
   double resolved_range() const override { return data_.band; }
   double steepest_gradient() const override;
+  bool has_several_contacts() const override { return true; }
+  void add_near_surfaces(const Vec3& x, double reach, NearSurfaces& found) const override;
 
   const BrickSamples& data() const { return data_; }
   Vec3 lower() const { return data_.lower; }
@@ -97,6 +99,9 @@ class SampledDistance final : public SignedDistance {
  private:
   enum class Surroundings { gas, solid, both };
 
+  bool kink_between_cells(const Vec3& x, const DistanceSample& nearest) const;
+  bool add_plane_through(const DistanceSample& sample, const Vec3& at, const Vec3& x, double reach,
+                         NearSurfaces& found) const;
   DistanceSample sample_inside(const Vec3& position) const;
   DistanceSample sample_outside(const Vec3& x) const;
   template <int count>

@@ -1,10 +1,10 @@
 // Sampling by blocks and bricks: first which bricks are needed, then their samples, so that memory
 // is taken once and for what is stored only.
 //
-// phi is 1-Lipschitz: |phi(x) - phi(y)| <= |x - y|. A sample is used up to `reach` = 3/2 spacings
-// away from it in each direction. So a group of samples whose centre has |phi| > band + R, with R
-// the half diagonal of the group enlarged by the reach, is not needed, and |phi| - R bounds phi
-// wherever a sample of it would be used.
+// phi is 1-Lipschitz: |phi(x) - phi(y)| <= |x - y|. A sample is used up to `reach` (1 or, for
+// quadratic interpolation, 3/2 spacings) away from it in each direction. So a group of samples
+// whose centre has |phi| > band + R, with R the half diagonal of the group enlarged by the reach,
+// is not needed, and |phi| - R bounds phi wherever a sample of it would be used.
 #include "coupling/shared/sampling.hpp"
 
 #include <atomic>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int points = SampledDistance::brick_points;
 constexpr int bricks_per_side = SampledDistance::block_bricks;
-constexpr double reach = 1.5;            // spacings
+constexpr double sharpest_bend = 0.3;    // spacings; of a radius of three spacings
 constexpr double most_blocks = 5e7;      // 400 MB of index
 constexpr double most_bricks = 2e9;      // they are numbered by 32 bits
 constexpr double compact_margin = 10.0;  // spacings beyond the band that samples may lie
@@ -115,6 +115,7 @@ class Sampler {
   // Bound of |phi| where samples of a group are used, with its sign; 0 when they are needed.
   float far_value(const Index3& first, int count) const {
     const Vec3 centre = Vec3(first[0], first[1], first[2]) + Vec3::Constant(0.5 * (count - 1));
+    const double reach = data_.interpolation == Interpolation::linear ? 1.0 : 1.5;
     const double radius = std::sqrt(3.0) * (0.5 * (count - 1) + reach) * data_.spacing;
     const double phi = shape_.distance(position(centre));
     const double bound = std::abs(phi) - radius;
@@ -212,7 +213,7 @@ class Sampler {
         for (int i = 0; i < points; ++i) *values++ = distance_at(brick, i, j, k);
   }
 
-  // s - (1/8) (sum of the second differences) = (1 + 6/8) s - (1/8) (sum of the six neighbours)
+  // s - (1/8) (sum of the second differences), each left out at kinks, where it would overshoot.
   void sample_coefficients(const Index3& brick, double* values) const {
     constexpr int wide = points + 2;
     double s[wide][wide][wide];
@@ -225,9 +226,15 @@ class Sampler {
     for (int k = 1; k <= points; ++k)
       for (int j = 1; j <= points; ++j)
         for (int i = 1; i <= points; ++i)
-          *values++ =
-              1.75 * s[k][j][i] - 0.125 * (s[k][j][i - 1] + s[k][j][i + 1] + s[k][j - 1][i] +
-                                           s[k][j + 1][i] + s[k - 1][j][i] + s[k + 1][j][i]);
+          *values++ = s[k][j][i] - 0.125 * (bend(s[k][j][i - 1], s[k][j][i], s[k][j][i + 1]) +
+                                            bend(s[k][j - 1][i], s[k][j][i], s[k][j + 1][i]) +
+                                            bend(s[k - 1][j][i], s[k][j][i], s[k + 1][j][i]));
+  }
+
+  // Second difference, or 0 for a radius of curvature that the spacing does not resolve.
+  double bend(double before, double here, double after) const {
+    const double difference = before - 2 * here + after;
+    return std::abs(difference) < sharpest_bend * data_.spacing ? difference : 0.0;
   }
 
   const SignedDistance& shape_;

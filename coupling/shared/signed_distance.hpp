@@ -4,6 +4,7 @@
 // A vessel is the complement of its interior.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <string>
@@ -15,6 +16,18 @@ namespace gasgrain {
 struct DistanceSample {
   double distance;  // m
   Vec3 gradient;    // exact derivative of `distance` as returned, points into the flow domain
+};
+
+// Places where a ball may touch the surface: locally nearest parts of it, seen from one point.
+struct NearSurfaces {
+  static constexpr int most = 8;
+  int count = 0;
+  std::array<DistanceSample, most> surface;
+
+  // Further ones than `most` are dropped.
+  void add(const DistanceSample& sample) {
+    if (count < most) surface[count++] = sample;
+  }
 };
 
 class SignedDistance {
@@ -31,6 +44,14 @@ class SignedDistance {
   virtual double resolved_range() const { return std::numeric_limits<double>::infinity(); }
   // The distance changes by no more than this times the way. Interpolated fields may exceed 1.
   virtual double steepest_gradient() const { return 1.0; }
+  // Whether a ball can touch the surface at several places (concave edges).
+  virtual bool has_several_contacts() const { return false; }
+  // Adds the locally nearest parts of the surface with |phi| < reach (m), as distance and normal of
+  // each. One for smooth and convex surfaces; at a concave edge one for each side.
+  virtual void add_near_surfaces(const Vec3& x, double reach, NearSurfaces& found) const {
+    const DistanceSample nearest = sample(x);
+    if (nearest.distance < reach && nearest.distance > -reach) found.add(nearest);
+  }
   // What the user should know about how the shape was made, in lines; or empty.
   virtual std::string remarks() const { return {}; }
 };

@@ -9,9 +9,6 @@ namespace {
 using Column = Eigen::Map<Vec3>;
 using ConstColumn = Eigen::Map<const Vec3>;
 
-constexpr double steepest_gradient = 1.7320508075688773;  // sqrt 3
-constexpr double smallest_gradient = 1e-3;                // as in fix wall/sdf
-
 }  // namespace
 
 void WallContacts::load(int local_count) {
@@ -20,6 +17,7 @@ void WallContacts::load(int local_count) {
   for (std::size_t c = 0; c < grains_.size(); ++c)
     displacements_[c] = wall_->displacements()[grains_[c]];
   touches_after_.assign(grains_.size(), 0.0);
+  swept_ = 0.0;
   block_begin_.clear();
   for (int begin = 0; begin < local_count; begin += grains_per_block)
     block_begin_.push_back(static_cast<int>(
@@ -30,6 +28,12 @@ void WallContacts::load(int local_count) {
 void WallContacts::store() const {
   for (std::size_t c = 0; c < grains_.size(); ++c)
     wall_->displacements()[grains_[c]] = displacements_[c];
+}
+
+void WallContacts::begin_step() {
+  load_ = {};
+  wall_->place_wall();
+  swept_ += wall_->fastest_sweep() * wall_->step_duration();
 }
 
 void WallContacts::add_contact_loads(int block, const WallBatch& batch) {
@@ -45,42 +49,29 @@ void WallContacts::add_contact_loads(int block, const WallBatch& batch) {
 
 template <TangentialModel tangential>
 void WallContacts::add_block(int block, const WallBatch& batch) {
-  const SignedDistance& shape = *wall_->body().shape;
+  SdfWall& wall = wall_->wall();
+  const double steepest = wall.body().shape->steepest_gradient();
+  const double travelled = batch.travelled + swept_;
   for (int c = block_begin_[block]; c < block_begin_[block + 1]; ++c) {
-    if (batch.travelled < touches_after_[c]) continue;
-    const GrainRecord& grain = batch.grains[grains_[c]];
-    const DistanceSample wall = shape.sample(ConstColumn(grain.position));
-    if (wall.distance < grain.radius &&
-        wall.gradient.squaredNorm() > smallest_gradient * smallest_gradient) {
-      add_contact<tangential>(wall, c, batch);
+    if (travelled < touches_after_[c]) continue;
+    const int i = grains_[c];
+    const GrainRecord& record = batch.grains[i];
+    const GrainAtWall grain{.tag = wall_->tag(i),
+                            .type = batch.types[i],
+                            .radius = record.radius,
+                            .mass = 1.0 / record.inverse_mass,
+                            .position = ConstColumn(record.position),
+                            .velocity = ConstColumn(record.velocity),
+                            .spin = ConstColumn(batch.spins[i].velocity)};
+    const WallTouch touch = wall.touch<tangential>(grain, displacements_[c], batch.step, load_);
+    if (touch.touches) {
+      LoadRecord& sum = batch.ring.slots[i & batch.ring.mask];
+      Column(sum.force) += touch.force;
+      Column(sum.torque) += touch.torque;
     } else {
-      displacements_[c].setZero();
-      touches_after_[c] = batch.travelled + (wall.distance - grain.radius) / steepest_gradient;
+      touches_after_[c] = travelled + touch.gap / steepest;
     }
   }
-}
-
-template <TangentialModel tangential>
-void WallContacts::add_contact(const DistanceSample& wall, int candidate, const WallBatch& batch) {
-  const int i = grains_[candidate];
-  const GrainRecord& grain = batch.grains[i];
-  const double overlap = grain.radius - wall.distance;
-  const double gradient = wall.gradient.norm();
-  const Vec3 n = wall.gradient / gradient;
-  const double lever = grain.radius - 0.5 * overlap;
-  const ContactState state{
-      .n = n,
-      .overlap = gradient * overlap,
-      .relative_velocity = ConstColumn(grain.velocity) - wall_->body().surface_velocity,
-      .lever_spin = lever * ConstColumn(batch.spins[i].velocity)};
-  const ContactCoefficients c = wall_->contacts()(batch.types[i], wall_->wall_type())
-                                    .first_against_fixed(1.0 / grain.inverse_mass);
-  const ContactForce f = contact_force<tangential>(c, state, displacements_[candidate], batch.step);
-  LoadRecord& sum = batch.ring.slots[i & batch.ring.mask];
-  Column(sum.force) += f.force;
-  Column(sum.torque) += lever * f.moment;
-  load_.add(f.force, ConstColumn(grain.position) - lever * n,
-            {.length = overlap, .relative = overlap / (2.0 * grain.radius)});
 }
 
 }  // namespace gasgrain::plugins

@@ -1,8 +1,8 @@
 // Contacts of the engine's grains with one SDF wall: the force of fix wall/sdf, on our records.
 //
 // The distance of a candidate is not asked for again until the grain may have come near: a grain
-// at distance phi with radius r cannot touch before it has travelled phi - r, divided by the
-// largest gradient that trilinear interpolation of a distance can have (sqrt 3).
+// at distance phi with radius r cannot touch before it and the wall have travelled phi - r
+// together, divided by the largest gradient that the field can have.
 #pragma once
 
 #include <vector>
@@ -34,7 +34,7 @@ class WallContacts {
   // Gives the springs back.
   void store() const;
 
-  void begin_step() { load_ = {}; }
+  void begin_step();
   void add_contact_loads(int block, const WallBatch& batch);
   // Tells the fix the load of the step.
   void end_step() const { wall_->record_step(load_); }
@@ -42,15 +42,14 @@ class WallContacts {
  private:
   template <TangentialModel tangential>
   void add_block(int block, const WallBatch& batch);
-  template <TangentialModel tangential>
-  void add_contact(const DistanceSample& wall, int candidate, const WallBatch& batch);
 
   FixWallSdf* wall_;
   std::vector<int> grains_;            // ascending
   std::vector<int> block_begin_;       // per block, and the end
   std::vector<double> touches_after_;  // m, `travelled` before which there is no contact
   std::vector<Vec3> displacements_;    // m
-  FixWallSdf::Load load_;
+  double swept_ = 0.0;                 // m, at least what any point of the wall has moved
+  WallLoad load_;
 };
 
 }  // namespace gasgrain::plugins

@@ -90,6 +90,35 @@ TEST(Primitives, CylinderIsExactAtMantleEndAndRim) {
   EXPECT_LT((shape->sample(Vec3(4, 0, -6)).gradient - Vec3(0.6, 0, -0.8)).norm(), 1e-15);
 }
 
+TEST(Primitives, ConeIsExactAtMantleEndAndTip) {
+  const Shape shape = make_shape(Cone{Vec3::Zero(), Vec3(0, 0, 1), 4.0, 3.0, 0.0});  // 3-4-5
+  EXPECT_NEAR(shape->distance(Vec3(0, 0, 6)), 2.0, 1e-14);
+  EXPECT_NEAR(shape->distance(Vec3(0, 0, -1.5)), 1.5, 1e-14);
+  EXPECT_NEAR(shape->distance(Vec3(1.5 + 0.8, 0, 2 + 0.6)), 1.0, 1e-14);
+  EXPECT_NEAR(shape->distance(Vec3(0, 1.5 - 0.4, 2 - 0.3)), -0.5, 1e-14);
+}
+
+// Seen from within, each face on its own; from outside the nearest place alone.
+TEST(Primitives, FacesOfABoxAndOfEndsAreFoundFromInside) {
+  NearSurfaces found;
+  make_shape(Box{.center = Vec3::Zero(), .half_size = Vec3(1, 1, 1)})
+      ->add_near_surfaces(Vec3(0.8, -0.7, 0.1), 0.4, found);
+  ASSERT_EQ(found.count, 2);
+  EXPECT_NEAR(found.surface[0].distance, -0.2, 1e-15);
+  EXPECT_EQ(found.surface[0].gradient, Vec3(1, 0, 0));
+  EXPECT_NEAR(found.surface[1].distance, -0.3, 1e-15);
+  EXPECT_EQ(found.surface[1].gradient, Vec3(0, -1, 0));
+  for (const Shape& round : {make_shape(Cylinder{Vec3::Zero(), Vec3(0, 0, 1), 1.0, 2.0}),
+                             make_shape(Cone{Vec3(0, 0, -2), Vec3(0, 0, 1), 4.0, 1.0, 1.0})}) {
+    NearSurfaces inside, outside;
+    round->add_near_surfaces(Vec3(0, 0.9, 1.7), 0.4, inside);
+    EXPECT_EQ(inside.count, 2);
+    round->add_near_surfaces(Vec3(0, 1.1, 2.1), 0.4, outside);
+    ASSERT_EQ(outside.count, 1);
+    EXPECT_NEAR(outside.surface[0].distance, std::sqrt(0.02), 1e-14);
+  }
+}
+
 TEST(Primitives, CylinderWithoutEndsHasOnlyItsMantle) {
   const Shape shape = make_shape(
       Cylinder{Vec3(1, 0, 1), Vec3(0, 1, 0), 0.5, std::numeric_limits<double>::infinity()});
@@ -121,6 +150,9 @@ INSTANTIATE_TEST_SUITE_P(
                     make_shape(Box{box.center, box.half_size, turned_axes()}), make_shape(finite),
                     make_shape(Cylinder{finite.center, finite.axis, finite.radius,
                                         std::numeric_limits<double>::infinity()}),
+                    make_shape(Cone{Vec3(0.1, -0.2, -0.5), Vec3(0.36, 0.48, 0.8), 1.1, 0.9, 0.3}),
+                    make_shape(Cone{Vec3(0.1, -0.2, -0.5), Vec3(0.36, 0.48, 0.8), 1.1, 0.0, 0.6}),
+                    make_shape(Torus{Vec3(0.1, 0.2, 0.3), Vec3(0.36, 0.48, 0.8), 0.9, 0.3}),
                     make_shape(Sphere{Vec3(0.1, 0.2, 0.3), 0.9})));
 
 }  // namespace

@@ -1,0 +1,113 @@
+#include "coupling/shared/near_surfaces.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "coupling/shared/boolean_shapes.hpp"
+#include "coupling/shared/primitives.hpp"
+#include "coupling/shared/sampling.hpp"
+
+namespace gasgrain {
+namespace {
+
+constexpr double radius = 0.2;
+
+NearSurfaces contacts(const Shape& shape, const Vec3& x) {
+  return ball_contacts(*shape, shape->sample(x), x, radius);
+}
+
+Shape half_space(const Vec3& normal) {
+  return make_shape(Plane{Vec3::Zero(), normal.normalized()});
+}
+
+// Two walls that meet in the z axis at this angle, the ball's centre `gap` from each beyond r.
+struct Wedge {
+  Shape shape;
+  Vec3 first, second;  // normals
+  Vec3 place;          // m, at distance r less `overlap` from both
+
+  Wedge(double degrees, double overlap) {
+    const double half = 0.5 * degrees * M_PI / 180;
+    first = Vec3(std::sin(half), std::cos(half), 0);
+    second = Vec3(std::sin(half), -std::cos(half), 0);
+    shape = make_union({half_space(first), half_space(second)});
+    place = Vec3((radius - overlap) / std::sin(half), 0, 0.03);
+  }
+};
+
+Shape sampled(const Shape& shape, Interpolation interpolation) {
+  return std::make_shared<const SampledDistance>(
+      sample_shape(*shape, {.lower = Vec3::Constant(-0.8),
+                            .upper = Vec3::Constant(0.8),
+                            .spacing = radius / 4,
+                            .band = 0.35,
+                            .cut = true,
+                            .interpolation = interpolation}));
+}
+
+void expect_both_walls(const NearSurfaces& found, const Wedge& wedge, double overlap,
+                       double tolerance) {
+  ASSERT_EQ(found.count, 2);
+  double to_first = 0.0, to_second = 0.0;
+  for (int n = 0; n < 2; ++n) {
+    EXPECT_NEAR(found.surface[n].distance, radius - overlap, tolerance);
+    to_first = std::max(to_first, found.surface[n].gradient.dot(wedge.first));
+    to_second = std::max(to_second, found.surface[n].gradient.dot(wedge.second));
+  }
+  EXPECT_NEAR(to_first, 1.0, 1e-5);
+  EXPECT_NEAR(to_second, 1.0, 1e-5);
+}
+
+TEST(NearSurfaces, ABallInAWedgeTouchesBothWalls) {
+  for (const double degrees : {60.0, 90.0, 120.0}) {
+    const double overlap = 1e-3;
+    const Wedge wedge(degrees, overlap);
+    expect_both_walls(contacts(wedge.shape, wedge.place), wedge, overlap, 1e-14);
+    for (const Interpolation interpolation : {Interpolation::linear, Interpolation::quadratic}) {
+      SCOPED_TRACE(degrees);
+      expect_both_walls(contacts(sampled(wedge.shape, interpolation), wedge.place), wedge, overlap,
+                        1e-6);
+    }
+  }
+}
+
+// Near the edge samples mix both walls; the distance of the one that is touched must not suffer.
+TEST(NearSurfaces, ABallThatTouchesOneWallNearAnEdgeFeelsThatOneAlone) {
+  const Wedge wedge(90.0, 1e-3);
+  for (const Interpolation interpolation : {Interpolation::linear, Interpolation::quadratic}) {
+    const Shape field = sampled(wedge.shape, interpolation);
+    for (double away = 0.004; away < 0.2; away += 0.004) {
+      const Vec3 x = wedge.place + away * Vec3(wedge.first[1], -wedge.first[0], 0);
+      const NearSurfaces found = contacts(field, x);
+      ASSERT_EQ(found.count, 1) << away;
+      EXPECT_NEAR(found.surface[0].distance, radius - 1e-3, 1e-3 * radius) << away;
+    }
+  }
+}
+
+TEST(NearSurfaces, NearlyParallelWallsAreOneContact) {
+  const Wedge wedge(170.0, 1e-3);
+  EXPECT_EQ(contacts(wedge.shape, wedge.place).count, 1);
+}
+
+TEST(NearSurfaces, CoveredPartsOfAUnionAreNotTouched) {
+  // a block on a floor; the floor below the block is no surface
+  const Shape scene =
+      make_union({half_space(Vec3(0, 0, 1)),
+                  make_shape(Box{.center = Vec3::Zero(), .half_size = Vec3(1, 1, 0.1)})});
+  EXPECT_EQ(contacts(scene, Vec3(0, 0, 0.25)).count, 1);
+  EXPECT_EQ(contacts(scene, Vec3(1.15, 0, 0.19)).count, 2);
+}
+
+TEST(NearSurfaces, ASmoothConcaveWallIsTouchedOnce) {
+  const Shape bowl = make_complement(make_shape(Sphere{Vec3::Zero(), 0.6}));
+  for (const Interpolation interpolation : {Interpolation::linear, Interpolation::quadratic}) {
+    const NearSurfaces found = contacts(sampled(bowl, interpolation), Vec3(0.25, 0.2, 0.26));
+    ASSERT_EQ(found.count, 1);
+    EXPECT_NEAR(found.surface[0].distance, 0.6 - Vec3(0.25, 0.2, 0.26).norm(), 5e-3);
+  }
+}
+
+}  // namespace
+}  // namespace gasgrain
