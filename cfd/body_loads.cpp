@@ -191,7 +191,16 @@ Vec3 BodyLoads::pressure_on(const Index3& local, const Field& pressure,
   return force;
 }
 
-void BodyLoads::add_pressure(const Field& pressure, const VectorField& gradient, double dt) {
+void BodyLoads::add_pressure(const Field& pressure, const VectorField& gradient,
+                             const Vec3& uniform_gradient, double dt) {
+  for (int d = 0; d < 3; ++d) {
+    if (uniform_gradient[d] == 0.0) continue;
+    for (const Face& face : faces_[d]) {
+      const Vec3 received = -dt * face.missing * uniform_gradient[d] * Vec3::Unit(d);
+      loads_[face.body].pressure += received;
+      loads_[face.body].pressure_torque += face.arm.cross(received);
+    }
+  }
   for (const Cell& cell : cells_) {
     const Vec3 received = dt * pressure_on(cell.local, pressure, gradient);
     loads_[cell.body].pressure += received;

@@ -21,7 +21,9 @@ class BodyLoads {
   // Adds what the stress of the gas does to the volume of the bodies: `weight` * slope on faces,
   // N/m^3 times s. The slope must be that of all faces, also of those that do not take part.
   void add_stress(const VectorField& slope, double weight);
-  void add_pressure(const Field& pressure, const VectorField& gradient, double dt);
+  // `uniform_gradient` [Pa/m]: of the pressure of periodic directions, beside `pressure`.
+  void add_pressure(const Field& pressure, const VectorField& gradient,
+                    const Vec3& uniform_gradient, double dt);
   // Divides by dt and sums over ranks. Collective.
   void finish(double dt);
 

@@ -45,6 +45,26 @@ void read_wall_velocity(Boundary& boundary, const ConfigTable& table, int direct
              "has a component across the side; a side can only slide in its own plane");
 }
 
+void read_outlet(Boundary& boundary, const ConfigTable& table) {
+  boundary.pressure = table.number_or("pressure", 0.0);
+  const bool moving = table.choice_or("backflow", "still", {"still", "moving"}) == "moving";
+  boundary.backflow = moving ? Backflow::moving : Backflow::still;
+}
+
+void read_drive(Boundary& boundary, const ConfigTable& table, int side) {
+  for (const char* key : {"pressure_gradient", "mean_velocity"}) {
+    if (side == 1 && table.has(key))
+      table.fail(key, "is stated at the lower side of the direction");
+  }
+  boundary.pressure_gradient = table.number_or("pressure_gradient", 0.0);
+  if (!table.has("mean_velocity")) return;
+  boundary.mean_velocity = table.number("mean_velocity");
+  if (table.has("pressure_gradient")) {
+    table.fail("mean_velocity",
+               "is given beside pressure_gradient, which follows from it; give one");
+  }
+}
+
 void read_factor(Boundary& boundary, const ConfigTable& table) {
   if (!table.has("time_table")) return;
   boundary.factor = read_time_table(table.table("time_table"));
@@ -68,6 +88,9 @@ constexpr OwnedKey owned_keys[] = {
     {"profile_along", BoundaryType::inlet, "an inlet; set type = \"inlet\""},
     {"profile_file", BoundaryType::inlet, "an inlet; set type = \"inlet\""},
     {"pressure", BoundaryType::outlet, "an outlet; set type = \"outlet\""},
+    {"backflow", BoundaryType::outlet, "an outlet; set type = \"outlet\""},
+    {"pressure_gradient", BoundaryType::periodic, "a periodic side; set type = \"periodic\""},
+    {"mean_velocity", BoundaryType::periodic, "a periodic side; set type = \"periodic\""},
     {"wall_velocity", BoundaryType::no_slip, "a no-slip side; set type = \"no-slip\""},
 };
 
@@ -90,7 +113,8 @@ Boundary read_condition(const ConfigTable& table, int direction, int side,
   boundary.type = type_of(table.choice("type", types));
   reject_keys_of_other_types(table, boundary.type);
   if (boundary.type == BoundaryType::inlet) read_inlet(boundary, table, direction, side);
-  if (boundary.type == BoundaryType::outlet) boundary.pressure = table.number_or("pressure", 0.0);
+  if (boundary.type == BoundaryType::outlet) read_outlet(boundary, table);
+  if (boundary.type == BoundaryType::periodic) read_drive(boundary, table, side);
   if (boundary.type == BoundaryType::no_slip) read_wall_velocity(boundary, table, direction);
   read_factor(boundary, table);
   return boundary;
@@ -175,6 +199,23 @@ std::vector<BoundaryPatch> read_patches(const ConfigTable& boundary_table,
     }
   }
   return patches;
+}
+
+void check_time_tables(const ConfigTable& boundary_table, const Boundaries& boundaries,
+                       const std::vector<BoundaryPatch>& patches, double end_time) {
+  const auto check = [&](const std::string& key, const Boundary& condition) {
+    if (condition.factor.covers(end_time)) return;
+    boundary_table.fail(key, "has a time_table that ends at " +
+                                 std::to_string(condition.factor.times.back()) +
+                                 " s, but run.end_time is " + std::to_string(end_time) +
+                                 " s; add rows or give a period");
+  };
+  for (int d = 0; d < 3; ++d) {
+    for (int side = 0; side < 2; ++side) check(names_of_sides[d][side], boundaries[d][side]);
+  }
+  for (const BoundaryPatch& patch : patches) {
+    check("patch '" + patch.name + "'", patch.condition);
+  }
 }
 
 std::array<bool, 3> periodic_directions(const Boundaries& boundaries) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,19 @@ namespace gasgrain::cfd {
 
 enum class BoundaryType { no_slip, slip, inlet, outlet, periodic };
 
+// What gas that enters through an outlet brings: nothing but the pressure of still surroundings, or
+// the velocity it has on the face.
+enum class Backflow { still, moving };
+
 struct Boundary {
   BoundaryType type = BoundaryType::no_slip;
   Vec3 superficial_velocity = Vec3::Zero();  // m/s, inlet: the flux eps u that enters (void
                                              // fraction times velocity), mean over the faces
   Vec3 wall_velocity = Vec3::Zero();         // m/s, no_slip: velocity of the wall in its plane
   double pressure = 0.0;                     // Pa, outlet
+  Backflow backflow = Backflow::still;       // outlet
+  double pressure_gradient = 0.0;            // Pa/m, periodic: mean along the direction, lower side
+  std::optional<double> mean_velocity;       // m/s, periodic: superficial, keeps the gradient right
   InletProfile profile;                      // inlet
   bool velocity_is_of_profile = false;       // the mean is that of the profile's table
   TimeTable factor;                          // of the velocities and of the pressure
@@ -50,6 +58,10 @@ Boundaries read_boundaries(const ConfigTable& boundary_table);
 std::vector<BoundaryPatch> read_patches(const ConfigTable& boundary_table,
                                         const Boundaries& boundaries,
                                         const std::vector<Body>& bodies, ShapeFileLoader load_file);
+
+// Throws UserError when a time table ends before `end_time` [s].
+void check_time_tables(const ConfigTable& boundary_table, const Boundaries& boundaries,
+                       const std::vector<BoundaryPatch>& patches, double end_time);
 
 // Directions whose two sides are joined.
 std::array<bool, 3> periodic_directions(const Boundaries& boundaries);

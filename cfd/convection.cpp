@@ -8,7 +8,13 @@
 // differences a, b of one sign. Plain upwind is too diffusive (drag of a cylinder + 20 %).
 //
 // On an outlet the flow outside equals that on the face; what leaves carries the difference to the
-// face before it, what comes back in carries the velocity it has.
+// face before it. What comes back in comes from still surroundings: it carries no velocity, neither
+// along the side nor across, so that it can bring no energy. Across the side that is
+//
+//   -rho u (u - 0)/h = -(rho u^2/2) / (h/2),
+//
+// the stated pressure acting as the total pressure of what enters. With Backflow::moving it carries
+// the velocity it has.
 #include "cfd/convection.hpp"
 
 #include <algorithm>
@@ -69,9 +75,38 @@ void leave(Field& slope, const GasDomain& domain, int d, int side, const Field& 
            const Field& velocity) {
   const double scale = domain.gas.density / domain.spacing[d];
   const std::ptrdiff_t inwards = (side == 0 ? 1 : -1) * slope.stride(d);
-  for_each_outlet_face(domain, d, side, [&](auto, auto n, const SideCondition&) {
+  for_each_outlet_face(domain, d, side, [&](auto, auto n, const SideCondition& condition) {
     const double outflow = side == 0 ? -flux[n] : flux[n];
-    slope[n] -= scale * std::max(outflow, 0.0) * (velocity[n] - velocity[n + inwards]);
+    const double carried = condition.backflow == Backflow::still ? 0.0 : velocity[n];
+    slope[n] -= scale * (std::max(outflow, 0.0) * (velocity[n] - velocity[n + inwards]) +
+                         std::max(-outflow, 0.0) * (velocity[n] - carried));
+  });
+}
+
+// Component d of what enters through an outlet across direction e: the mirrored value outside makes
+// transport() carry the velocity there is; this takes it away.
+void enter_still(Field& slope, const GasDomain& domain, int d, int e, int side, const Field& flux,
+                 const Field& velocity) {
+  if (!domain.sides.has(e, side, BoundaryType::outlet) ||
+      !domain.decomposition.at_boundary(e, side))
+    return;
+  const double scale = domain.gas.density / domain.spacing[e], inwards = side == 0 ? 1.0 : -1.0;
+  const std::ptrdiff_t to_side = side == 1 ? slope.stride(e) : 0;
+  const auto inflow = [&](Index3 cell, std::ptrdiff_t n) {
+    const SideCondition& condition = domain.condition(e, side, cell);
+    const bool enters =
+        condition.type == BoundaryType::outlet && condition.backflow == Backflow::still;
+    return enters ? std::max(inwards * flux[n + to_side], 0.0) : 0.0;
+  };
+  IndexBox box = all_faces(domain, d);
+  box.begin[e] = domain.side_layer(e, side);
+  box.end[e] = box.begin[e] + 1;
+  for_each_in(box, [&](int i, int j, int k) {
+    const std::ptrdiff_t n = slope.index(i, j, k);
+    Index3 below{i, j, k};
+    --below[d];
+    const double sum = inflow({i, j, k}, n) + inflow(below, n - slope.stride(d));
+    slope[n] -= scale * 0.5 * sum * velocity[n];
   });
 }
 
@@ -89,6 +124,10 @@ void add(VectorField& slope, const GasDomain& domain, const VectorField& flux,
     }
     for (int side = 0; side < 2; ++side) {
       leave(slope[d], domain, d, side, flux[d], velocity[d]);
+      for (int e = 0; e < 3; ++e) {
+        if (e == d || !domain.solved[e]) continue;
+        enter_still(slope[d], domain, d, e, side, flux[e], velocity[d]);
+      }
     }
   }
 }

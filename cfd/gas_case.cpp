@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cfd/time_step.hpp"
 #include "coupling/files/sdf_file.hpp"
 #include "coupling/shared/drag.hpp"
 
@@ -65,7 +66,8 @@ PressureFallback read_pressure_fallback(const ConfigTable& table) {
 
 Numerics read_numerics(const ConfigTable& table) {
   expect_only(table, {"convection", "pressure_solver", "pressure_fallback", "pressure_tolerance",
-                      "pressure_iterations", "courant_number", "largest_step", "ranks"});
+                      "pressure_iterations", "reference_pressure", "time_scheme", "courant_number",
+                      "largest_step", "ranks"});
   Numerics n;
   n.convection = read_convection(table);
   n.pressure_solver = read_pressure_solver(table);
@@ -74,8 +76,12 @@ Numerics read_numerics(const ConfigTable& table) {
       table.number_or("pressure_tolerance", n.pressure_tolerance, {.lower = 1e-14, .upper = 0.1});
   n.pressure_iterations = static_cast<int>(table.integer_or(
       "pressure_iterations", n.pressure_iterations, {.lower = 1, .upper = 100000}));
-  n.courant_number = table.number_or("courant_number", n.courant_number,
-                                     {.lower = 0.0, .upper = 0.25, .lower_open = true});
+  n.reference_pressure = table.number_or("reference_pressure", n.reference_pressure);
+  const bool rk2 = table.choice_or("time_scheme", "ab2", {"ab2", "rk2"}) == "rk2";
+  n.time_scheme = rk2 ? TimeScheme::rk2 : TimeScheme::ab2;
+  const double largest = stability_of(n.time_scheme).courant_number;
+  n.courant_number = table.number_or("courant_number", largest,
+                                     {.lower = 0.0, .upper = largest, .lower_open = true});
   n.largest_step = table.number_or("largest_step", n.largest_step, Range::positive());
   if (table.has("ranks")) n.ranks = table.integers3("ranks", {.lower = 1, .upper = 1e6});
   return n;
@@ -147,6 +153,7 @@ GasCase read_gas_case(const ConfigTable& file) {
   result.initial = read_initial(file.table_or_empty("initial"));
   result.fixed_bed = read_fixed_bed(file, result.grid);
   result.run = read_run(file.table_or_empty("run"));
+  check_time_tables(file.table("boundary"), result.boundaries, result.patches, result.run.end_time);
   result.output = read_output(file.table_or_empty("output"));
   result.probes = read_probes(file, result.grid, result.bodies);
   result.statements = file.statements();

@@ -22,13 +22,17 @@ struct GasProperties {
 
 enum class Convection { none, central, van_leer };
 
+enum class TimeScheme { ab2, rk2 };
+
 struct Numerics {
   Convection convection = Convection::van_leer;
   PressureMethod pressure_solver = PressureMethod::multigrid;
   PressureFallback pressure_fallback = PressureFallback::hypre_boomeramg;
   double pressure_tolerance = 1e-6;  // residual over right-hand side, 2-norm
   int pressure_iterations = 200;     // largest number of CG iterations before the fallback
-  double courant_number = 0.25;      // largest |u| dt / dx
+  double reference_pressure = 0.0;   // Pa, mean of a region without outlet
+  TimeScheme time_scheme = TimeScheme::ab2;
+  double courant_number = 0.25;                                   // largest |u| dt / dx
   double largest_step = std::numeric_limits<double>::infinity();  // s
   Index3 ranks{0, 0, 0};  // blocks per direction; 0 = choose
 };

@@ -15,6 +15,9 @@
 //                          c = eps dt/(rho (1 + K))
 //   5  u = u* - (c/eps) grad p
 //
+// With time_scheme = rk2 (Heun) steps 1 to 5 are taken twice from u_n: first with the bracket of
+// u_n alone, then with the mean of that and the bracket of what the first stage gave.
+//
 // a is the open share of a face, alpha the solid share of a cell, both with the bodies where they
 // are at the end of the step; swept is the volume that moving bodies leave (moving_walls.cpp). eps,
 // B and B v of a face are means over the shares its cells' grains have in it. The bracket is
@@ -30,7 +33,9 @@
 #include <utility>
 
 #include "cfd/body_loads.hpp"
+#include "cfd/boundary_checks.hpp"
 #include "cfd/convection.hpp"
+#include "cfd/driving_gradient.hpp"
 #include "cfd/face_medium.hpp"
 #include "cfd/gas_domain.hpp"
 #include "cfd/ghost_values.hpp"
@@ -39,6 +44,7 @@
 #include "cfd/interval_means.hpp"
 #include "cfd/momentum_budget.hpp"
 #include "cfd/moving_walls.hpp"
+#include "cfd/outlet_flow.hpp"
 #include "cfd/projection.hpp"
 #include "cfd/solve_failure.hpp"
 #include "cfd/time_step.hpp"
@@ -77,6 +83,9 @@ struct GasSolver::State {
   void find_walls();
   void evaluate_slope();
   void predict(double dt, const AdamsBashforth& weights);
+  // Steps 1 to 5 with the slopes at hand.
+  void take_stage(StepReport& report, PassClock& clock, double dt, const AdamsBashforth& weights,
+                  const Field* old_void_fraction);
   void measure_loads(MomentumBudget& budget, double dt, const AdamsBashforth& weights);
   void check_finite(double dt, double speed_before) const;
   // Face values as the grains of a cell see them.
@@ -93,7 +102,9 @@ struct GasSolver::State {
   ImmersedBoundary immersed_boundary;
   BodyLoads loads;
   Projection projection;
+  DrivingGradient driving;
   VectorField velocity;
+  VectorField start;           // velocity before the first stage of two
   Vec3 speeds = Vec3::Zero();  // largest |u| per direction of all ranks, m/s
   Field pressure;
   Field old_void_fraction;  // of the cells at the start of the step
@@ -112,10 +123,12 @@ GasSolver::State::State(const GasCase& given, MPI_Comm communicator)
       immersed_boundary(domain),
       loads(domain),
       projection(domain, given.numerics),
+      driving(domain),
       velocity(fields(domain.size())),
       pressure(domain.size()) {
   slope.total = old_slope.total = fields(domain.size());
   set_velocity([&](const Vec3&) { return gas_case.initial.velocity; });
+  check_boundaries(domain, projection.regions());
 }
 
 void GasSolver::State::set_velocity(const std::function<Vec3(const Vec3&)>& function) {
@@ -185,7 +198,7 @@ void GasSolver::State::predict(double dt, const AdamsBashforth& weights) {
   const double rho = domain.gas.density;
   for (int d = 0; d < 3; ++d) {
     if (!domain.solved[d]) continue;
-    const double g = domain.gas.gravity[d];
+    const double g = domain.gas.gravity[d] - driving.value()[d] / rho;
     const double* part = domain.walls.takes_part[d].data();
     const double* now = slope.total[d].data();
     const double* before = old_slope.total[d].data();
@@ -209,6 +222,35 @@ void GasSolver::State::predict(double dt, const AdamsBashforth& weights) {
   }
 }
 
+void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double dt,
+                                  const AdamsBashforth& weights, const Field* old_void_fraction) {
+  const double speed_before = speeds.maxCoeff();
+  predict(dt, weights);
+  clock.finish(report.times, Pass::predict);
+  set_solid_faces(velocity, domain);
+  fill_velocity_ghosts(domain, medium, velocity);
+  if (domain.walls.has_bodies) {
+    report.momentum.body = immersed_boundary.apply(velocity, domain, medium, dt);
+    fill_velocity_ghosts(domain, medium, velocity);
+  }
+  if (driving.present()) {
+    driving.keep_mean_flow(velocity, medium, dt);
+    fill_velocity_ghosts(domain, medium, velocity);
+  }
+  check_finite(dt, speed_before);
+  clock.finish(report.times, Pass::boundary);
+  const Projection::Balance balance =
+      projection.set_equation(medium, old_void_fraction, velocity, dt);
+  report.removed_mean = balance.removed_mean;
+  report.swept_imbalance = balance.swept_imbalance;
+  clock.finish(report.times, Pass::equation);
+  report.pressure = projection.solve(pressure);
+  clock.finish(report.times, Pass::solve);
+  projection.correct(velocity, pressure, medium, dt);
+  if (driving.present()) driving.add_to(projection.pressure_gradient());
+  fill_velocity_ghosts(domain, medium, velocity);
+}
+
 // Adds this rank's share of body_stress to the budget.
 void GasSolver::State::measure_loads(MomentumBudget& budget, double dt,
                                      const AdamsBashforth& weights) {
@@ -216,7 +258,7 @@ void GasSolver::State::measure_loads(MomentumBudget& budget, double dt,
   loads.add_stress(slope.total, dt * weights.now);
   loads.add_stress(old_slope.total, dt * weights.before);
   budget.body_stress = -loads.stress_impulse();
-  loads.add_pressure(pressure, projection.pressure_gradient(), dt);
+  loads.add_pressure(pressure, projection.pressure_gradient(), driving.value(), dt);
   loads.finish(dt);
 }
 
@@ -249,6 +291,9 @@ void GasSolver::State::visit(StateArchive& archive) {
   archive.faces("slope", slope.total);
   archive.partial_sums("slope_convection", {slope.convection.data(), 3});
   archive.partial_sums("slope_viscous", {slope.viscous.data(), 3});
+  if (driving.present()) {
+    driving.visit([&](const std::string& name, double& value) { archive.number(name, value); });
+  }
   visit_grains(archive);
   if (archive.restores()) rebuild();
 }
@@ -272,6 +317,7 @@ void GasSolver::State::rebuild() {
   fill_velocity_ghosts(domain, medium, velocity);
   fill_ghosts(domain.decomposition, pressure);
   projection.restore(pressure);
+  if (driving.present()) driving.add_to(projection.pressure_gradient());
   speeds = largest_speeds(domain, velocity);
 }
 
@@ -286,8 +332,8 @@ StepReport GasSolver::advance(double dt) {
   GASGRAIN_ASSERT(dt > 0.0 && std::isfinite(dt));
   StepReport report;
   MomentumBudget& budget = report.momentum;
-  const AdamsBashforth weights = adams_bashforth(dt, s.previous_dt);
-  const double speed_before = s.speeds.maxCoeff();
+  const bool two_stages = s.gas_case.numerics.time_scheme == TimeScheme::rk2;
+  AdamsBashforth weights = two_stages ? AdamsBashforth{} : adams_bashforth(dt, s.previous_dt);
   if (s.time + dt > domain.walls_time + walls_are_there * dt) s.move_bodies(s.time + dt);
   const bool had_grains = s.medium.has_grains;
   s.old_void_fraction = s.medium.cell_void_fraction;
@@ -306,30 +352,25 @@ StepReport GasSolver::advance(double dt) {
   clock.finish(report.times, Pass::medium);
 
   s.domain.sides.set_time(s.time + dt);
-  s.predict(dt, weights);
-  clock.finish(report.times, Pass::predict);
-  set_solid_faces(s.velocity, domain);
-  fill_velocity_ghosts(domain, s.medium, s.velocity);
-  if (domain.walls.has_bodies) {
-    budget.body = s.immersed_boundary.apply(s.velocity, domain, s.medium, dt);
-    fill_velocity_ghosts(domain, s.medium, s.velocity);
+  if (two_stages) {
+    s.start = s.velocity;
+    s.take_stage(report, clock, dt, weights, old_void_fraction);
+    s.evaluate_slope();
+    clock.finish(report.times, Pass::slope);
+    std::swap(s.velocity, s.start);
+    weights = {.now = 0.5, .before = 0.5};
   }
-  s.check_finite(dt, speed_before);
-  clock.finish(report.times, Pass::boundary);
-
-  const Projection::Balance balance =
-      s.projection.set_equation(s.medium, old_void_fraction, s.velocity, dt);
-  report.removed_mean = balance.removed_mean;
-  report.swept_imbalance = balance.swept_imbalance;
-  clock.finish(report.times, Pass::equation);
-  report.pressure = s.projection.solve(s.pressure);
-  clock.finish(report.times, Pass::solve);
-  s.projection.correct(s.velocity, s.pressure, s.medium, dt);
-  fill_velocity_ghosts(domain, s.medium, s.velocity);
+  const PressureReport first = report.pressure;
+  s.take_stage(report, clock, dt, weights, old_void_fraction);
+  report.pressure.iterations += first.iterations;
+  report.pressure.fallbacks += first.fallbacks;
+  if (s.driving.present()) s.driving.observe(s.velocity, s.medium);
   s.time += dt;
   s.previous_dt = dt;
-  s.check_finite(dt, speed_before);
+  s.check_finite(dt, s.speeds.maxCoeff());
 
+  report.backflow = backflow(domain, s.medium, s.velocity);
+  report.driving_gradient = s.driving.value();
   report.divergence = s.projection.divergence(s.medium, old_void_fraction, s.velocity, dt);
   s.speeds = largest_speeds(domain, s.velocity);
   report.largest_speed = s.speeds.maxCoeff();
@@ -342,7 +383,8 @@ StepReport GasSolver::advance(double dt) {
   budget.viscous = dt * (weights.now * s.slope.viscous + weights.before * s.old_slope.viscous);
   if (domain.walls.has_bodies) s.measure_loads(budget, dt, weights);
   add_forces(budget, domain, s.medium, s.velocity, s.projection.pressure_gradient(), dt);
-  add_pressure_reactions(budget, domain, s.pressure, s.projection.pressure_gradient(), dt);
+  add_pressure_reactions(budget, domain, s.pressure, s.projection.pressure_gradient(),
+                         s.driving.value(), dt);
   sum_over_ranks(domain.decomposition, budget);
   clock.finish(report.times, Pass::budget);
   if (s.means.started()) s.means.add(s.medium, s.velocity, s.projection.pressure_gradient(), dt);
@@ -398,9 +440,7 @@ void GasSolver::accept_void_fraction_as_old() {
 }
 
 double GasSolver::largest_stable_step() const {
-  const Numerics& numerics = state_->gas_case.numerics;
-  return std::min(numerics.largest_step, cfd::largest_stable_step(state_->domain, state_->speeds,
-                                                                  numerics.courant_number));
+  return step_limits().smallest();
 }
 
 void GasSolver::State::sample(VectorField& velocity_at_cells, VectorField& gradient_at_cells,
@@ -427,6 +467,13 @@ void GasSolver::State::sample(VectorField& velocity_at_cells, VectorField& gradi
   }
   fill_ghosts(domain.decomposition, velocity_at_cells);
   fill_ghosts(domain.decomposition, gradient_at_cells);
+}
+
+StepLimits GasSolver::step_limits() const {
+  const GasProperties& gas = state_->domain.gas;
+  return cfd::step_limits(state_->domain, state_->speeds,
+                          gas.gravity - state_->driving.value() / gas.density,
+                          state_->gas_case.numerics);
 }
 
 void GasSolver::sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const {

@@ -16,6 +16,7 @@
 #include "cfd/pressure_solver.hpp"
 #include "cfd/side_conditions.hpp"
 #include "cfd/state_archive.hpp"
+#include "cfd/time_step.hpp"
 #include "cfd/wall_geometry.hpp"
 
 namespace gasgrain::cfd {
@@ -57,8 +58,10 @@ struct StepReport {
                                  // terms; 0 when the system is not singular
   double swept_imbalance = 0.0;  // of sealed regions: net volume that moving bodies leave over what
                                  // they leave and take (-); evened out, see Projection
-  double courant_number = 0.0;   // largest |u| dt / dx after the step
-  double largest_speed = 0.0;    // largest velocity component after the step, m/s
+  double backflow = 0.0;         // m^3/s that enter through outlets after the step
+  Vec3 driving_gradient = Vec3::Zero();  // Pa/m, mean of periodic directions
+  double courant_number = 0.0;           // largest |u| dt / dx after the step
+  double largest_speed = 0.0;            // largest velocity component after the step, m/s
   MomentumBudget momentum;
   PassTimes times;  // of this rank; for display, they decide nothing
 };
@@ -95,7 +98,8 @@ class GasSolver {
 
   // Largest step that the viscous and Courant limits and numerics.largest_step allow now, s.
   double largest_stable_step() const;
-  double time() const;  // s
+  StepLimits step_limits() const;  // the same by cause
+  double time() const;             // s
 
   // Saves or restores all that enters later steps. Of grains(), what the last advance() or
   // accept_void_fraction_as_old() was given belongs to it: call this before setting them anew. A

@@ -135,9 +135,19 @@ double side_open_area(const GasDomain& domain, int direction, int side) {
 }
 
 void add_pressure_reactions(MomentumBudget& budget, const GasDomain& domain, const Field& pressure,
-                            const VectorField& pressure_gradient, double dt) {
+                            const VectorField& pressure_gradient, const Vec3& uniform_gradient,
+                            double dt) {
   for (int d = 0; d < 3; ++d) {
     if (!domain.solved[d]) continue;
+    if (uniform_gradient[d] != 0.0) {
+      const double all = domain.cell_volume() * domain.size()[0] * domain.size()[1] *
+                         static_cast<double>(domain.size()[2]);
+      double gas = 0.0;
+      for_each_face(domain.decomposition, d,
+                    [&](int i, int j, int k) { gas += domain.control_volume[d](i, j, k); });
+      budget.side_pressure[d] -= dt * uniform_gradient[d] * all;
+      budget.body_pressure[d] += dt * uniform_gradient[d] * (all - gas);
+    }
     const double sides = side_force(domain, pressure, pressure_gradient, d, 0) -
                          side_force(domain, pressure, pressure_gradient, d, 1);
     budget.side_pressure[d] += dt * sides;

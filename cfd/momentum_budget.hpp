@@ -26,9 +26,12 @@ double side_force(const GasDomain& domain, const Field& pressure,
                   const VectorField& pressure_gradient, int direction, int side);
 double side_open_area(const GasDomain& domain, int direction, int side);  // m^2
 
-// Adds the same pressure force from the cells' side: of the sides and of the bodies.
+// Adds the same pressure force from the cells' side: of the sides and of the bodies. A
+// `uniform_gradient` [Pa/m] of a periodic direction acts on the whole cross-section of its sides;
+// what bodies occupy of the volume between is taken by them.
 void add_pressure_reactions(MomentumBudget& budget, const GasDomain& domain, const Field& pressure,
-                            const VectorField& pressure_gradient, double dt);
+                            const VectorField& pressure_gradient, const Vec3& uniform_gradient,
+                            double dt);
 
 // Sums every row over all ranks.
 void sum_over_ranks(const Decomposition& decomposition, MomentumBudget& budget);

@@ -10,7 +10,7 @@
 //
 // A region without an outlet determines its pressure up to a constant, and only when it neither
 // gains nor loses gas. The sum of its right-hand side is then round-off of the terms' sum; that is
-// checked, the rest removed, and the mean of its pressure set to zero.
+// checked, the rest removed, and the mean of its pressure set to the reference pressure.
 #include "cfd/projection.hpp"
 
 #include <algorithm>
@@ -72,6 +72,7 @@ Projection::Projection(const GasDomain& domain, const Numerics& numerics)
     : domain_(domain),
       tolerance_(numerics.pressure_tolerance),
       max_iterations_(numerics.pressure_iterations),
+      reference_(numerics.reference_pressure),
       solver_(make_pressure_solver(domain.decomposition, numerics.pressure_solver,
                                    numerics.pressure_fallback)),
       term_norm_(domain.size()),
@@ -211,9 +212,12 @@ double Projection::remove_means(double dt) {
   return largest;
 }
 
-void Projection::remove_pressure_means(Field& pressure) {
+void Projection::set_pressure_means(Field& pressure, double reference) {
   if (!regions_.any_singular()) return;
   means_of_singular_regions(region_means_, domain_.decomposition, regions_, pressure);
+  for (std::size_t r = 0; r < region_means_.size(); ++r) {
+    if (!regions_.regions[r].has_outlet) region_means_[r] -= reference;
+  }
   subtract_per_region(pressure, regions_, region_means_);
   fill_ghosts(domain_.decomposition, pressure);
 }
@@ -292,8 +296,10 @@ Projection::Balance Projection::set_equation(const FaceMedium& medium,
 }
 
 PressureReport Projection::solve(Field& pressure) {
+  if (reference_ != 0.0) set_pressure_means(pressure, 0.0);  // what the solver expects
   const PressureReport report = solver_->solve(system_, tolerance_, max_iterations_, pressure);
   check(report);
+  set_pressure_means(pressure, reference_);
   return report;
 }
 

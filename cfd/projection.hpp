@@ -10,6 +10,14 @@
 
 namespace gasgrain::cfd {
 
+// dt / (rho (1 + K)) = dt / (rho + dt B / eps): the velocity of face n of direction d that a unit
+// pressure gradient removes, m^2 s/kg.
+inline double mobility(const FaceMedium& medium, double density, double dt, int d,
+                       std::ptrdiff_t n) {
+  if (!medium.has_grains) return dt / density;
+  return dt / (density + dt * medium.momentum_exchange[d][n] / medium.void_fraction[d][n]);
+}
+
 class Projection {
  public:
   // Largest of the regions without outlet.
@@ -46,6 +54,9 @@ class Projection {
   // grad p on faces, Pa/m, 0 on those that do not take part; ghosts filled. Of the last correct()
   // or restore().
   const VectorField& pressure_gradient() const { return gradient_; }
+  VectorField& pressure_gradient() { return gradient_; }
+
+  const GasRegions& regions() const { return regions_; }
 
   // Largest |change of the void + dt * outflow| of a cell over its void. Collective.
   double divergence(const FaceMedium& medium, const Field* old_void_fraction,
@@ -60,7 +71,7 @@ class Projection {
   void add_outlets();
   double remove_means(double dt);
   double balance_swept_volume();
-  void remove_pressure_means(Field& pressure);
+  void set_pressure_means(Field& pressure, double reference);
   void check(const PressureReport& report) const;
   void set_gradient(const Field& pressure);
 
@@ -73,6 +84,7 @@ class Projection {
   const GasDomain& domain_;
   double tolerance_;
   int max_iterations_;
+  double reference_;  // Pa
   std::unique_ptr<PressureSolver> solver_;
   PressureSystem system_;
   Field term_norm_;   // sum of |terms| of the right-hand side per cell

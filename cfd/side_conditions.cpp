@@ -15,12 +15,12 @@ namespace {
 
 constexpr double round_off = 1e-9;  // of a cell: a face centre on the surface of a region is in it
 
+}  // namespace
+
 std::string title(const SidePart& part) {
   const std::string side = names_of_sides[part.direction][part.side];
   return part.name.empty() ? "boundary." + side : "boundary.patch '" + part.name + "' on " + side;
 }
-
-}  // namespace
 
 SideConditions::SideConditions(const Grid& grid, const Boundaries& boundaries,
                                const std::vector<BoundaryPatch>& patches)
@@ -166,7 +166,7 @@ void SideConditions::set_time(double time) {
     const bool inlet = stated.type == BoundaryType::inlet;
     conditions_[n] = {stated.type,
                       factor * (inlet ? stated.superficial_velocity : stated.wall_velocity),
-                      factor * stated.pressure};
+                      factor * stated.pressure, stated.backflow};
   }
 }
 
@@ -181,9 +181,13 @@ bool SideConditions::is_uniform(int direction, int side) const {
   return maps_[direction][side].part.empty() && maps_[direction][side].share.empty();
 }
 
-const SideCondition& SideConditions::at(int direction, int side, const Index3& cell) const {
+std::size_t SideConditions::part(int direction, int side, const Index3& cell) const {
   const Map& map = maps_[direction][side];
-  return conditions_[map.part.empty() ? map.first : map.part[face_index(direction, cell)]];
+  return map.part.empty() ? map.first : map.part[face_index(direction, cell)];
+}
+
+const SideCondition& SideConditions::at(int direction, int side, const Index3& cell) const {
+  return conditions_[part(direction, side, cell)];
 }
 
 Vec3 SideConditions::velocity(int direction, int side, const Index3& cell) const {

@@ -15,6 +15,7 @@ struct SideCondition {
   BoundaryType type = BoundaryType::no_slip;
   Vec3 velocity = Vec3::Zero();  // m/s now: an inlet's mean superficial velocity, or the wall's
   double pressure = 0.0;         // Pa now, outlet
+  Backflow backflow = Backflow::still;
 };
 
 // One condition of a side: its own (name "") or that of a patch.
@@ -24,6 +25,9 @@ struct SidePart {
   long faces = 0;
   Boundary stated;
 };
+
+// "boundary.z_lower" or "boundary.patch 'jet' on z_lower".
+std::string title(const SidePart& part);
 
 class SideConditions {
  public:
@@ -45,6 +49,8 @@ class SideConditions {
   // Condition of the face next to a cell given by global indices. Cells beyond the edges of the
   // side have that of the nearest face, or of the one that periodic directions make it.
   const SideCondition& at(int direction, int side, const Index3& cell) const;
+  // Index into parts() of the condition there.
+  std::size_t part(int direction, int side, const Index3& cell) const;
   // Its velocity: of an inlet with the profile.
   Vec3 velocity(int direction, int side, const Index3& cell) const;
 

@@ -1,4 +1,5 @@
-// Weights of the second-order Adams-Bashforth step and the largest step it is stable with.
+// Weights of the second-order Adams-Bashforth step and the largest steps that schemes are stable
+// with.
 #pragma once
 
 #include "cfd/field.hpp"
@@ -19,10 +20,30 @@ AdamsBashforth adams_bashforth(double dt, double previous_dt);
 // Largest |u_d| over all faces of each direction, m/s. Collective.
 Vec3 largest_speeds(const GasDomain& domain, const VectorField& velocity);
 
-// Largest step that keeps nu dt / h^2 <= 1/12 in every direction that varies, and the Courant
-// number below `courant_number` even after gravity has acted on the gas for the step, s. Infinite
-// when nothing limits it. Collective.
-double largest_stable_step(const GasDomain& domain, const Vec3& largest_speeds,
-                           double courant_number);
+// Largest numbers a scheme is stable with.
+struct Stability {
+  double courant_number;    // |u| dt / h
+  double diffusion_number;  // nu dt / h^2 in three directions
+};
+Stability stability_of(TimeScheme scheme);
+
+enum class StepLimit { convection, viscosity, acceleration, stated };
+inline constexpr int step_limit_count = 4;
+const char* name_of(StepLimit limit);
+
+// Largest step by each limit, s; infinite where it does not apply.
+struct StepLimits {
+  double convection;    // Courant number of the velocities there are and that inlets will have
+  double viscosity;     // diffusion number in every direction that varies
+  double acceleration;  // Courant number after gravity and driving gradients acted for the step
+  double stated;        // numerics.largest_step
+
+  double smallest() const;
+  StepLimit binding() const;  // the first of the smallest
+};
+
+// `acceleration` of the gas by gravity and driving gradients, m/s^2.
+StepLimits step_limits(const GasDomain& domain, const Vec3& largest_speeds,
+                       const Vec3& acceleration, const Numerics& numerics);
 
 }  // namespace gasgrain::cfd

@@ -118,6 +118,176 @@ TEST(GasBoundary, a_table_drives_the_flux_at_the_end_of_the_step) {
   EXPECT_THROW(solver.advance(0.1), UserError);
 }
 
+TEST(GasBoundary, gas_from_still_surroundings_enters_with_bernoullis_speed) {
+  // A frictionless duct of length 1 between two pressures: L du/dt = dp/rho - u^2/2.
+  GasCase c = box_case(Vec3(0.2, 0.2, 1.0), {1, 1, 8});
+  c.gas = {.density = 1.2, .viscosity = 0.0};
+  testing::set_sides(c, 0, BoundaryType::slip);
+  testing::set_sides(c, 1, BoundaryType::slip);
+  testing::set_sides(c, 2, BoundaryType::outlet);
+  c.boundaries[2][0].pressure = 5.0;
+  const double final_speed = std::sqrt(2.0 * 5.0 / 1.2), end = 1.5;
+  GasSolver solver(c, MPI_COMM_WORLD);
+  StepReport report;
+  for (int n = 0; n < 1500; ++n) report = solver.advance(end / 1500);
+  const double exact = final_speed * std::tanh(final_speed * end / 2.0);
+  EXPECT_NEAR(solver.side_flux(2, 1) / 0.04, exact, 0.003 * exact);
+  EXPECT_NEAR(report.backflow, solver.side_flux(2, 0), 1e-12);
+  EXPECT_LT(testing::imbalance(report.momentum).norm(), 1e-12 * testing::turnover(report.momentum));
+
+  c.boundaries[2][0].backflow = Backflow::moving;  // nothing slows it down: u = dp t/(rho L)
+  GasSolver free(c, MPI_COMM_WORLD);
+  for (int n = 0; n < 150; ++n) free.advance(end / 1500);
+  EXPECT_NEAR(free.side_flux(2, 1) / 0.04, 5.0 / 1.2 * 0.15, 1e-9);
+}
+
+// Kinetic energy of this case's gas over density, m^5/s^2.
+double kinetic_energy(const GasSolver& solver) {
+  double sum = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    for_each_face(solver.decomposition(), d, [&](int i, int j, int k) {
+      const double u = solver.velocity()[d](i, j, k);
+      sum += 0.5 * u * u * solver.decomposition().grid().cell_volume();
+    });
+  }
+  return sum_over_ranks(solver.decomposition(), sum);
+}
+
+TEST(GasBoundary, a_vortex_leaves_through_an_outlet_without_a_gain_of_energy) {
+  // Its swirl of 3 m/s exceeds the stream of 1 m/s, so gas flows back in while it passes.
+  GasCase c = box_case(Vec3(1, 1, 1), {32, 1, 32});
+  c.gas.viscosity = 1e-4;
+  c.numerics.pressure_tolerance = 1e-6;
+  testing::set_sides(c, 0, BoundaryType::slip);
+  testing::set_sides(c, 1, BoundaryType::slip);
+  c.boundaries[2][0] = testing::inlet(Vec3(0, 0, 1));
+  c.boundaries[2][1] = side(BoundaryType::outlet);
+  GasSolver solver(c, MPI_COMM_WORLD);
+  const double core = 0.08;
+  solver.set_velocity([&](const Vec3& x) {
+    const Vec3 r = x - Vec3(0.5, 0, 0.6);
+    const double swirl = 3.0 * std::exp(0.5 - 0.5 * (r[0] * r[0] + r[2] * r[2]) / (core * core));
+    return Vec3(swirl * r[2] / core, 0, 1.0 - swirl * r[0] / core);
+  });
+  solver.advance(1e-4);
+  const double at_first = kinetic_energy(solver);
+  double largest = at_first, largest_backflow = 0.0;
+  while (solver.time() < 2.0) {
+    largest_backflow =
+        std::max(largest_backflow, solver.advance(solver.largest_stable_step()).backflow);
+    largest = std::max(largest, kinetic_energy(solver));
+  }
+  EXPECT_GT(largest_backflow, 0.02);
+  EXPECT_LT(largest, 1.02 * at_first);
+  EXPECT_NEAR(kinetic_energy(solver), 0.5, 0.02);  // the stream alone
+}
+
+// Channel of height 1 between z_lower and z_upper, periodic along x, with a rod across it.
+GasCase periodic_channel(int cells) {
+  GasCase c = box_case(Vec3(1, 0.5, 1), {cells, 2, cells});
+  testing::set_sides(c, 0, BoundaryType::periodic);
+  testing::set_sides(c, 1, BoundaryType::slip);
+  c.numerics.pressure_tolerance = 1e-13;
+  return c;
+}
+
+GasCase channel_with_rod() {
+  GasCase c = periodic_channel(12);
+  c.bodies = testing::bodies(
+      "[[body]]\nname='rod'\ncylinder={point=[0.5,0,0.45],axis=[0,1,0],radius=0.2}\n");
+  return c;
+}
+
+TEST(GasBoundary, a_pressure_gradient_drives_the_flow_of_a_body_force) {
+  GasCase forced = channel_with_rod(), driven = forced;
+  forced.gas.gravity = Vec3(3, 0, 0);
+  driven.boundaries[0][0].pressure_gradient = -3.0;
+  GasSolver a(forced, MPI_COMM_SELF), b(driven, MPI_COMM_SELF);
+  for (int n = 0; n < 10; ++n) {
+    a.advance(5e-4);
+    b.advance(5e-4);
+  }
+  EXPECT_GT(a.side_flux(0, 0), 1e-3);
+  for (int d = 0; d < 3; ++d) EXPECT_LT(difference(a, b, d), 1e-12);
+}
+
+TEST(GasBoundary, a_driving_gradient_acts_on_gas_grains_and_bodies) {
+  GasCase c = channel_with_rod();
+  c.boundaries[0][0].pressure_gradient = -3.0;
+  GasSolver solver(c, MPI_COMM_WORLD);
+  set_moving_heap(solver, 0.0, 0.3, 40.0);
+  solver.accept_void_fraction_as_old();
+  const double dt = 1e-3;
+  for (int n = 1; n < 4; ++n) {
+    set_moving_heap(solver, 0.05 * n, 0.3, 40.0);
+    const MomentumBudget budget = solver.advance(dt).momentum;
+    EXPECT_LT(testing::imbalance(budget).norm(), 1e-12 * testing::turnover(budget));
+    EXPECT_LT(testing::pressure_imbalance(budget).norm(), 1e-12 * testing::turnover(budget));
+    EXPECT_NEAR(budget.side_pressure[0], 3.0 * 0.5 * dt, 1e-15);  // box of 0.5 m^3
+    const Vec3 on_rod = solver.body_loads().front().pressure;
+    EXPECT_NEAR(on_rod[0] * dt, -budget.body_pressure[0], 1e-12 * testing::turnover(budget));
+  }
+}
+
+TEST(GasBoundary, a_prescribed_mean_flow_finds_its_pressure_gradient) {
+  GasCase c = periodic_channel(16);
+  c.grid.cells[0] = c.grid.cells[1] = 1;
+  c.boundaries[0][0].mean_velocity = 0.5;
+  GasSolver solver(c, MPI_COMM_WORLD);
+  StepReport report;
+  while (solver.time() < 1.0) {
+    report = solver.advance(solver.largest_stable_step());
+    ASSERT_NEAR(solver.side_flux(0, 0), 0.5 * 0.5, 1e-13);
+  }
+  // 12 mu q / H^2; the discrete parabola through n cells carries 1 + 2/n^2 of the exact flow
+  EXPECT_NEAR(report.driving_gradient[0], -6.0 / (1.0 + 2.0 / 256.0), 1e-3);
+}
+
+TEST(GasBoundary, a_prescribed_mean_flow_is_kept_around_a_body) {
+  GasCase c = channel_with_rod();
+  c.boundaries[0][0].mean_velocity = 0.5;
+  GasSolver solver(c, MPI_COMM_WORLD);
+  StepReport report;
+  for (int n = 0; n < 400; ++n) report = solver.advance(5e-4);
+  EXPECT_NEAR(solver.side_flux(0, 0), 0.25, 1e-6);
+  EXPECT_LT(report.driving_gradient[0], -6.0);  // more than without the rod
+  EXPECT_LT(testing::imbalance(report.momentum).norm(), 1e-12 * testing::turnover(report.momentum));
+}
+
+TEST(GasBoundary, a_reference_pressure_is_the_mean_of_a_sealed_region) {
+  GasCase c = box_case(Vec3(1, 1, 1), {6, 6, 6});
+  c.gas.gravity = Vec3(0, 0, -9.81);
+  GasSolver plain(c, MPI_COMM_WORLD);
+  c.numerics.reference_pressure = 101325.0;
+  GasSolver referred(c, MPI_COMM_WORLD);
+  for (int n = 0; n < 3; ++n) {
+    plain.advance(1e-3);
+    referred.advance(1e-3);
+  }
+  EXPECT_NEAR(referred.side_pressure(2, 0), 101325.0 + 0.5 * 9.81, 1e-8);
+  EXPECT_NEAR(plain.side_pressure(2, 0), 0.5 * 9.81, 1e-8);
+}
+
+void expect_refused(const GasCase& c, const std::string& part) {
+  try {
+    GasSolver solver(c, MPI_COMM_WORLD);
+    FAIL() << "accepted, expected: " << part;
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+TEST(GasBoundary, conditions_that_contradict_each_other_are_refused_with_numbers) {
+  GasCase c = jet_and_vent();
+  c.patches.pop_back();
+  expect_refused(c, "no outlet, but 0.12 m^3/s blow into it (boundary.patch 'jet' on z_lower");
+  c = jet_and_vent();
+  c.bodies = testing::bodies("[[body]]\nname='lid'\nbox={lower=[0.8,-1,1.2],upper=[2,2,2.5]}\n");
+  expect_refused(c, "boundary.patch 'vent' on x_upper: bodies cover all of its 16 faces");
+  c.bodies = testing::bodies("[[body]]\nname='gate'\nbox={lower=[-1,-1,0.95],upper=[2,2,1.25]}\n");
+  expect_refused(c, "has no outlet, but 0.12 m^3/s");
+}
+
 TEST(GasBoundary, a_plate_that_oscillates_in_its_plane_drives_stokes_layer) {
   // Stokes's second problem: u = exp(-k z) cos(w t - k z), k = sqrt(w / (2 nu)); with nu = 1 and
   // w = 2 pi / T the gap of 6 / k hides the wall opposite (exp(-6) = 0.25 %).

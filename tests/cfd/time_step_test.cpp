@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "cfd/gas_solver.hpp"
@@ -57,6 +58,96 @@ TEST(LargestStableStep, foresees_what_gravity_does_to_gas_at_rest) {
   c.gas.gravity = Vec3(0, 0, -10);
   // g dt^2 = 0.25 h
   EXPECT_NEAR(solver_of(c).largest_stable_step(), std::sqrt(0.25 * 0.1 / 10.0), 1e-15);
+}
+
+TEST(StepLimits, name_the_one_that_binds) {
+  GasCase c = testing::box_case(Vec3(1, 1, 1), {10, 10, 10});
+  c.gas.gravity = Vec3(0, 0, -10);
+  const StepLimits viscous = solver_of(c).step_limits();
+  EXPECT_EQ(viscous.binding(), StepLimit::viscosity);
+  EXPECT_TRUE(std::isinf(viscous.convection));
+  EXPECT_NEAR(viscous.acceleration, std::sqrt(0.25 * 0.1 / 10.0), 1e-15);
+  c.numerics.largest_step = 1e-5;
+  EXPECT_EQ(solver_of(c).step_limits().binding(), StepLimit::stated);
+  c.numerics.largest_step = 1.0;
+  c.gas.viscosity = 0.0;
+  EXPECT_EQ(solver_of(c).step_limits().binding(), StepLimit::acceleration);
+  EXPECT_STREQ(name_of(StepLimit::acceleration), "acceleration");
+}
+
+TEST(StepLimits, foresee_what_an_inlet_will_blow) {
+  GasCase c = testing::box_case(Vec3(1, 1, 1), {10, 10, 10});
+  c.gas.viscosity = 0.0;
+  c.boundaries[2][0] = testing::inlet(Vec3(0, 0, 2.0));
+  c.boundaries[2][0].factor = {.times = {0, 1}, .values = {0, 3}};
+  c.boundaries[2][1] = testing::side(BoundaryType::outlet);
+  EXPECT_NEAR(solver_of(c).step_limits().convection, 0.25 * 0.1 / 6.0, 1e-15);
+}
+
+TEST(StepLimits, of_two_stages_are_twice_as_long) {
+  GasCase c = testing::box_case(Vec3(1, 1, 1), {10, 10, 10});
+  c.numerics.time_scheme = TimeScheme::rk2;
+  EXPECT_NEAR(solver_of(c).step_limits().viscosity, 0.01 / 6.0, 1e-15);
+}
+
+// Velocity of vortices that decay and drift in a periodic box, after `steps` equal steps.
+VectorField drifting_vortices(TimeScheme scheme, int steps) {
+  GasCase c = testing::box_case(Vec3(1, 1, 1), {16, 1, 16});
+  c.gas.viscosity = 0.01;
+  c.numerics.time_scheme = scheme;
+  c.numerics.convection = Convection::central;
+  c.numerics.pressure_tolerance = 1e-12;
+  testing::set_sides(c, 0, BoundaryType::periodic);
+  testing::set_sides(c, 1, BoundaryType::slip);
+  testing::set_sides(c, 2, BoundaryType::periodic);
+  GasSolver solver(c, MPI_COMM_SELF);
+  const double k = 2.0 * M_PI;
+  solver.set_velocity([k](const Vec3& x) {
+    return Vec3(0.5 + std::sin(k * x[0]) * std::cos(k * x[2]), 0,
+                0.2 - std::cos(k * x[0]) * std::sin(k * x[2]));
+  });
+  for (int n = 0; n < steps; ++n) solver.advance(0.2 / steps);
+  return solver.velocity();
+}
+
+double distance(const VectorField& a, const VectorField& b) {
+  double sum = 0.0;
+  for_each_cell(a[0].size(), [&](int i, int j, int k) {
+    for (int d : {0, 2}) {
+      const double difference = a[d](i, j, k) - b[d](i, j, k);
+      sum += difference * difference;
+    }
+  });
+  return std::sqrt(sum);
+}
+
+TEST(TimeSchemes, both_are_second_order_and_two_stages_err_less) {
+  const VectorField exact = drifting_vortices(TimeScheme::rk2, 400);
+  std::array<double, 2> finest{};
+  for (const TimeScheme scheme : {TimeScheme::ab2, TimeScheme::rk2}) {
+    const double coarse = distance(drifting_vortices(scheme, 25), exact);
+    const double fine = distance(drifting_vortices(scheme, 50), exact);
+    EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.15) << coarse << " " << fine;
+    finest[scheme == TimeScheme::rk2 ? 1 : 0] = fine;
+  }
+  EXPECT_LT(finest[1], 0.7 * finest[0]);
+}
+
+TEST(TimeSchemes, two_stages_keep_the_momentum_budget) {
+  GasCase c = testing::box_case(Vec3(1, 1, 1), {8, 8, 8});
+  c.numerics.time_scheme = TimeScheme::rk2;
+  c.boundaries[2][0] = testing::inlet(Vec3(0.1, 0, 1));
+  c.boundaries[2][1] = testing::side(BoundaryType::outlet);
+  c.bodies = testing::bodies("[[body]]\nname='b'\nsphere={center=[0.5,0.5,0.5],radius=0.2}\n");
+  GasSolver solver(c, MPI_COMM_WORLD);
+  testing::set_moving_heap(solver, 0.0, 0.3, 40.0);
+  solver.accept_void_fraction_as_old();
+  for (int n = 1; n < 4; ++n) {
+    testing::set_moving_heap(solver, 0.05 * n, 0.3, 40.0);
+    const MomentumBudget budget = solver.advance(1e-3).momentum;
+    EXPECT_LT(testing::imbalance(budget).norm(), 1e-12 * testing::turnover(budget));
+    EXPECT_LT(testing::pressure_imbalance(budget).norm(), 1e-12 * testing::turnover(budget));
+  }
 }
 
 TEST(LargestStableStep, is_infinite_when_nothing_limits_it) {
