@@ -127,6 +127,11 @@ void RunCounters::visit_state(StateArchive& archive) {
   archive.number_of("shortened", shortened);
   archive.number("largest_divergence", largest_divergence);
   archive.number("largest_removed_mean", largest_removed_mean);
+  for (int n = 0; n < step_limit_count; ++n) {
+    archive.number_of(std::string("limited_by_") + name_of(static_cast<StepLimit>(n)), limited[n]);
+  }
+  archive.number_of("backflow_steps", backflow_steps);
+  archive.number("largest_backflow", largest_backflow);
 }
 
 void write_checkpoint(Hdf5File& file, GasSolver& solver, RunCounters& counters) {

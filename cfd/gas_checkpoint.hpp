@@ -4,6 +4,7 @@
 // (counters), /gas (GasSolver::visit_state) and /walls (share of the cells inside bodies).
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,12 @@ namespace gasgrain::cfd {
 // What a run tells at its end about all its steps.
 struct RunCounters {
   long steps = 0;
-  long iterations = 0;  // of the pressure
-  long fallbacks = 0;   // steps whose pressure another method had to solve
-  long shortened = 0;   // steps shorter than run.step for stability
+  long iterations = 0;                           // of the pressure
+  long fallbacks = 0;                            // steps whose pressure another method had to solve
+  long shortened = 0;                            // steps shorter than run.step for stability
+  std::array<long, step_limit_count> limited{};  // steps by the limit that bound them
+  long backflow_steps = 0;                       // steps with gas entering through outlets
+  double largest_backflow = 0.0;                 // m^3/s
   double largest_divergence = 0.0, largest_removed_mean = 0.0;
 
   void visit_state(StateArchive& archive);

@@ -123,15 +123,18 @@ RunOutcome GasRun::run() {
 }
 
 // The stated step, or what the limits allow, cut to meet the end time.
-double GasRun::next_step() const {
-  const double limit = solver_.largest_stable_step();
+double GasRun::next_step() {
+  const StepLimits limits = solver_.step_limits();
+  const double limit = limits.smallest();
   double dt = case_.run.step > 0.0 ? std::min(case_.run.step, limit) : limit;
   if (!std::isfinite(dt)) {
     throw UserError(
         "nothing limits the time step (no velocity, viscosity or gravity); give run.step in s");
   }
   const double left = end_time_ - solver_.time();
-  return left < dt * (1.0 + end_tolerance) ? left : dt;
+  if (left < dt * (1.0 + end_tolerance)) return left;
+  if (dt == limit) ++counters_.limited[static_cast<int>(limits.binding())];
+  return dt;
 }
 
 StepReport GasRun::step(double dt) {
@@ -179,6 +182,8 @@ void GasRun::record(const StepReport& report, double dt) {
   counters_.iterations += report.pressure.iterations;
   counters_.fallbacks += report.pressure.fallbacks;
   counters_.largest_divergence = std::max(counters_.largest_divergence, report.divergence);
+  counters_.largest_backflow = std::max(counters_.largest_backflow, report.backflow);
+  if (report.backflow > 0.0) ++counters_.backflow_steps;
   counters_.largest_removed_mean = std::max(counters_.largest_removed_mean, report.removed_mean);
   if (case_.run.step > 0.0 && dt < case_.run.step && !at_end()) ++counters_.shortened;
   display_.count(report);

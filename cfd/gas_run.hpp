@@ -38,7 +38,7 @@ class GasRun {
   void restart();
   std::string path_of_restart() const;
   void open_files();
-  double next_step() const;
+  double next_step();
   StepReport step(double dt);
   void keep_good_state();
   [[noreturn]] void give_up(const UserError& error, double dt);

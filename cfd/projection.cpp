@@ -299,13 +299,12 @@ PressureReport Projection::solve(Field& pressure) {
   if (reference_ != 0.0) set_pressure_means(pressure, 0.0);  // what the solver expects
   const PressureReport report = solver_->solve(system_, tolerance_, max_iterations_, pressure);
   check(report);
-  set_pressure_means(pressure, reference_);
   return report;
 }
 
 void Projection::correct(VectorField& velocity, Field& pressure, const FaceMedium& medium,
                          double dt) {
-  remove_pressure_means(pressure);
+  set_pressure_means(pressure, reference_);
   set_gradient(pressure);
   for (int d = 0; d < 3; ++d) {
     if (!domain_.solved[d]) continue;

@@ -153,6 +153,7 @@ void RunDisplay::finish(const StepReport& report, const RunCounters& counters,
       {"largest_divergence", counters.largest_divergence, "-", {}, {}, "of a cell's gas"},
       {"largest_removed_mean", counters.largest_removed_mean, "-", {}, {}, "of sealed regions"},
       {"shortened_steps", double(counters.shortened), "-", {}, {}, "below run.step for stability"},
+      {"largest_backflow", counters.largest_backflow, "m^3/s", {}, {}, "in through outlets"},
       {"wall_time", wall, "s", {}, {}, "since the start or restart"},
       {"wall_time_predictor", times.predictor, "s", {}, {}, "mean of the ranks"},
       {"wall_time_boundary", times.boundary, "s", {}, {}, "mean of the ranks"},
@@ -185,6 +186,7 @@ void RunDisplay::finish(const StepReport& report, const RunCounters& counters,
       std::printf("                        %ld were shorter than run.step to stay stable\n",
                   counters.shortened);
     }
+    print_limits(report, counters);
     std::printf("  wall time             %s (%s)\n",
                 wall < 60.0 ? text("%.2f s", wall).c_str() : duration(wall).c_str(),
                 shares(times, wall).c_str());
@@ -196,6 +198,24 @@ void RunDisplay::finish(const StepReport& report, const RunCounters& counters,
     write_summary((std::filesystem::path(gas_case.output.directory) / "summary.json").string(),
                   {.case_name = "gas", .commit = source_commit(), .quantities = quantities});
   });
+}
+
+void RunDisplay::print_limits(const StepReport& report, const RunCounters& counters) const {
+  std::printf("                        bound by");
+  for (int n = 0; n < step_limit_count; ++n) {
+    std::printf("%s %s %ld", n > 0 ? "," : "", name_of(static_cast<StepLimit>(n)),
+                counters.limited[n]);
+  }
+  std::printf("\n");
+  if (counters.backflow_steps > 0) {
+    std::printf("  backflow              up to %.5e m^3/s through outlets, in %ld steps\n",
+                counters.largest_backflow, counters.backflow_steps);
+  }
+  for (int d = 0; d < 3; ++d) {
+    if (report.driving_gradient[d] == 0.0) continue;
+    std::printf("  driving gradient      %.6e Pa/m along %c\n", report.driving_gradient[d],
+                "xyz"[d]);
+  }
 }
 
 double RunDisplay::elapsed() const {

@@ -34,6 +34,7 @@ class RunDisplay {
 
  private:
   void print_patches() const;
+  void print_limits(const StepReport& report, const RunCounters& counters) const;
   double elapsed() const;
   StepTimes mean_times() const;
 
