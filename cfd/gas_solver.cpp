@@ -85,7 +85,7 @@ struct GasSolver::State {
   void predict(double dt, const AdamsBashforth& weights);
   // Steps 1 to 5 with the slopes at hand.
   void take_stage(StepReport& report, PassClock& clock, double dt, const AdamsBashforth& weights,
-                  const Field* old_void_fraction);
+                  const Field* void_before);
   void measure_loads(MomentumBudget& budget, double dt, const AdamsBashforth& weights);
   void check_finite(double dt, double speed_before) const;
   // Face values as the grains of a cell see them.
@@ -223,7 +223,7 @@ void GasSolver::State::predict(double dt, const AdamsBashforth& weights) {
 }
 
 void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double dt,
-                                  const AdamsBashforth& weights, const Field* old_void_fraction) {
+                                  const AdamsBashforth& weights, const Field* void_before) {
   const double speed_before = speeds.maxCoeff();
   predict(dt, weights);
   clock.finish(report.times, Pass::predict);
@@ -239,8 +239,7 @@ void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double d
   }
   check_finite(dt, speed_before);
   clock.finish(report.times, Pass::boundary);
-  const Projection::Balance balance =
-      projection.set_equation(medium, old_void_fraction, velocity, dt);
+  const Projection::Balance balance = projection.set_equation(medium, void_before, velocity, dt);
   report.removed_mean = balance.removed_mean;
   report.swept_imbalance = balance.swept_imbalance;
   clock.finish(report.times, Pass::equation);
