@@ -130,6 +130,7 @@ void update(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains) {
     update_drag(medium, domain, grains, d);
   }
   if (domain.any_lenders) fill_ghosts(domain.decomposition, medium.void_fraction);
+  if (domain.walls.has_bodies) fill_ghosts(domain.decomposition, medium.momentum_exchange);
 }
 
 }  // namespace gasgrain::cfd

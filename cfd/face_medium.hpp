@@ -15,7 +15,7 @@ struct FaceMedium {
   Field cell_void_fraction;       // eps, ghosts filled (outside the grid: the value inside)
   VectorField void_fraction;      // eps_f on faces, also on the first two layers of ghost faces
   EdgeVoidFraction edges;         // eps on cell edges
-  VectorField momentum_exchange;  // B_f on owned faces, kg m^-3 s^-1
+  VectorField momentum_exchange;  // B_f on faces, kg m^-3 s^-1; ghosts are filled with bodies only
   VectorField exchange_momentum;  // (B v)_f on owned faces, kg m^-2 s^-2
   std::array<Field, 2> joined;    // work space: cells' values joined with those of lenders
 };
@@ -25,6 +25,15 @@ FaceMedium make_face_medium(const GasDomain& domain);
 // Share-and-volume-weighted means of the cells' values: the transpose of what sample_at_cells
 // gathers. Faces that do not take part get the mean void fraction of their two cells and no drag.
 void update(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains);
+
+// dt / (rho (1 + K)) = dt / (rho + dt B / eps): the velocity that a unit pressure gradient removes in
+// a step of dt [s], m^3 s/kg.
+inline double mobility(const FaceMedium& medium, double density, double dt, int direction,
+                       std::ptrdiff_t n) {
+  if (!medium.has_grains) return dt / density;
+  return dt /
+         (density + dt * medium.momentum_exchange[direction][n] / medium.void_fraction[direction][n]);
+}
 
 // Void fraction of a face: 1 without grains.
 inline double face_void_fraction(const FaceMedium& medium, int direction, std::ptrdiff_t n) {

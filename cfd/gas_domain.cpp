@@ -85,7 +85,7 @@ bool GasDomain::walls_move_until(double time) const {
 void GasDomain::move_to(double time) {
   if (!has_motion) return;
   if (walls_move_until(time)) {
-    walls = make_wall_geometry(decomposition, sides, bodies, time);
+    walls = move_wall_geometry(decomposition, sides, bodies, time);
     derive();
   } else {
     set_wall_velocities(walls, decomposition, bodies, time);

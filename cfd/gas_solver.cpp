@@ -80,7 +80,7 @@ struct GasSolver::State {
 
   void set_velocity(const std::function<Vec3(const Vec3&)>& function);
   bool move_bodies(double new_time);  // the shape of some body has moved
-  void find_walls();
+  void follow_walls(const VectorField& took_part);
   void evaluate_slope();
   void predict(double dt, const AdamsBashforth& weights);
   // Steps 1 to 5 with the slopes at hand.
@@ -112,6 +112,7 @@ struct GasSolver::State {
   Slope slope, old_slope;
   IntervalMeans means;
   double time = 0.0, previous_dt = 0.0;
+  double body_clock = 0.0;                      // s, of moving bodies at time = 0
   Vec3 momentum_of_moved_walls = Vec3::Zero();  // change of this rank's gas momentum by them, N s
 };
 
@@ -157,26 +158,27 @@ bool GasSolver::State::move_bodies(double new_time) {
   }
   const Vec3 momentum_before = gas_momentum(domain, medium, velocity);
   const Field old_open_share = domain.open_share;
+  const VectorField took_part = domain.walls.takes_part;
   domain.move_to(new_time);
   if (medium.has_grains) {
     carry_grains(medium.cell_void_fraction, domain, old_open_share);
     fill_scalar_ghosts(domain, medium.cell_void_fraction);
     grains.void_fraction = medium.cell_void_fraction;
   }
-  medium.edges = make_edge_void_fraction(domain);
-  if (medium.has_grains) update(medium.edges, domain, medium.cell_void_fraction);
   fill_fresh_cells(pressure, domain, old_open_share);
-  find_walls();
+  follow_walls(took_part);
   fill_velocity_ghosts(domain, medium, velocity);
   momentum_of_moved_walls += gas_momentum(domain, medium, velocity) - momentum_before;
   return true;
 }
 
 // What the parts of the step know of the walls of the domain.
-void GasSolver::State::find_walls() {
+void GasSolver::State::follow_walls(const VectorField& took_part) {
+  medium.edges = make_edge_void_fraction(domain);
+  if (medium.has_grains) update(medium.edges, domain, medium.cell_void_fraction);
   immersed_boundary = ImmersedBoundary(domain);
   loads.find_walls();
-  projection.find_regions();
+  projection.follow_walls(pressure, took_part);
 }
 
 void GasSolver::State::evaluate_slope() {
@@ -230,7 +232,8 @@ void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double d
   set_solid_faces(velocity, domain);
   fill_velocity_ghosts(domain, medium, velocity);
   if (domain.walls.has_bodies) {
-    report.momentum.body = immersed_boundary.apply(velocity, domain, medium, dt);
+    report.momentum.body =
+        immersed_boundary.apply(velocity, domain, medium, projection.pressure_gradient(), dt);
     fill_velocity_ghosts(domain, medium, velocity);
   }
   if (driving.present()) {
@@ -278,12 +281,12 @@ void GasSolver::State::check_finite(double dt, double speed_before) const {
 void GasSolver::State::visit(StateArchive& archive) {
   archive.number("time", time);
   archive.number("previous_dt", previous_dt);
+  archive.number("body_clock", body_clock);
   double walls_time = domain.walls_time;
   archive.number("walls_time", walls_time);
   if (archive.restores() && domain.has_motion) {
     domain.move_to(walls_time);
-    medium.edges = make_edge_void_fraction(domain);
-    find_walls();
+    follow_walls(domain.walls.takes_part);
   }
   archive.faces("velocity", velocity);
   archive.cells("pressure", pressure);  // the first guess of the next solve
@@ -333,7 +336,8 @@ StepReport GasSolver::advance(double dt) {
   MomentumBudget& budget = report.momentum;
   const bool two_stages = s.gas_case.numerics.time_scheme == TimeScheme::rk2;
   AdamsBashforth weights = two_stages ? AdamsBashforth{} : adams_bashforth(dt, s.previous_dt);
-  if (s.time + dt > domain.walls_time + walls_are_there * dt) s.move_bodies(s.time + dt);
+  const double end = s.body_clock + s.time + dt;
+  if (end > domain.walls_time + walls_are_there * dt) s.move_bodies(end);
   const bool had_grains = s.medium.has_grains;
   s.old_void_fraction = s.medium.cell_void_fraction;
   PassClock clock;
@@ -425,8 +429,19 @@ const Field& GasSolver::void_fraction() const {
   return state_->medium.cell_void_fraction;
 }
 
+void GasSolver::set_body_clock(double clock) {
+  State& s = *state_;
+  s.body_clock = clock;
+  if (!s.domain.has_motion) return;
+  s.domain.move_to(clock);
+  s.follow_walls(s.domain.walls.takes_part);
+  set_solid_faces(s.velocity, s.domain);
+  fill_velocity_ghosts(s.domain, s.medium, s.velocity);
+  s.speeds = largest_speeds(s.domain, s.velocity);
+}
+
 bool GasSolver::move_bodies(double time) {
-  return state_->move_bodies(time);
+  return state_->move_bodies(state_->body_clock + time);
 }
 
 void GasSolver::visit_state(StateArchive& archive) {

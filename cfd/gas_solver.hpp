@@ -86,6 +86,10 @@ class GasSolver {
   // first exchange, when grains appear without displacing gas.
   void accept_void_fraction_as_old();
 
+  // The clock of moving bodies shows `clock` [s] when time() is 0 (default 0). Before the first
+  // step. Collective.
+  void set_body_clock(double clock);
+
   // Moves the bodies to where they are at `time` [s], not before time(). advance() does this itself
   // for the end of its step; call it when the walls must be known before the grains are mapped. The
   // void fraction of grains() is then per the new open volume, with the same solid volume.

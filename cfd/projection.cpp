@@ -283,6 +283,14 @@ double Projection::balance_swept_volume() {
   return largest;
 }
 
+void Projection::follow_walls(const Field& pressure, const VectorField& took_part) {
+  find_regions();
+  set_gradient(pressure);
+  for (int d = 0; d < 3; ++d) {
+    for (std::size_t n = 0; n < gradient_[d].count(); ++n) gradient_[d][n] *= took_part[d][n];
+  }
+}
+
 Projection::Balance Projection::set_equation(const FaceMedium& medium,
                                              const Field* old_void_fraction,
                                              const VectorField& velocity, double dt) {

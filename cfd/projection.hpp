@@ -29,9 +29,9 @@ class Projection {
 
   Projection(const GasDomain& domain, const Numerics& numerics);
 
-  // Looks for the connected regions of gas; again after the walls of the domain changed.
-  // Collective.
-  void find_regions();
+  // After the walls of the domain changed: regions of gas are found anew, and the gradient of
+  // `pressure` (ghosts filled) on the faces that take part and did so before. Collective.
+  void follow_walls(const Field& pressure, const VectorField& took_part);
 
   // Coefficients and right-hand side of the pressure equation. `velocity` is u* with ghosts filled;
   // `old_void_fraction` is eps of the cells at the start of the step, null when there were no
@@ -63,6 +63,7 @@ class Projection {
                     const VectorField& velocity, double dt);
 
  private:
+  void find_regions();
   void set_coefficients(const FaceMedium& medium, double dt);
   template <class Faces>
   void set_coefficients_along(int d, const Faces& faces);

@@ -37,10 +37,13 @@ class GeometryBuilder {
     walls_.has_bodies = !bodies_.empty();
   }
 
-  WallGeometry build() {
-    allocate();
+  void check() const {
     check_bodies_reach_into_grid();
     check_bodies_are_resolved();
+  }
+
+  WallGeometry build() {
+    allocate();
     sample_cells();
     for (int d = 0; d < 3; ++d) sample_faces(d);
     set_wall_velocities(walls_, decomposition_, all_bodies_, time_);
@@ -94,6 +97,27 @@ class GeometryBuilder {
         shapes_.begin(), shapes_.end(),
         [&](const Shape& a, const Shape& b) { return a->distance(x) < b->distance(x); });
     return bodies_[nearest - shapes_.begin()] - all_bodies_.data();
+  }
+
+  // visit(i, j, k) for all indices below `count` but those in bricks that are further than two
+  // cells away from all bodies: |phi| never exceeds the distance.
+  template <class Visit>
+  void for_each_near_bodies(const Index3& count, Visit&& visit) const {
+    if (!solid_) return;
+    constexpr int brick = 8;
+    const double reach = (brick + 6) * half_cell_.norm();
+    const auto below = [&](int d, int first) { return std::min(first + brick, count[d]); };
+    for (int c = 0; c < count[2]; c += brick) {
+      for (int b = 0; b < count[1]; b += brick) {
+        for (int a = 0; a < count[0]; a += brick) {
+          const Vec3 middle = cell_centre(a, b, c) + (brick - 1) * half_cell_;
+          if (solid_->distance(middle) > reach) continue;
+          for (int k = c; k < below(2, c); ++k)
+            for (int j = b; j < below(1, b); ++j)
+              for (int i = a; i < below(0, a); ++i) visit(i, j, k);
+        }
+      }
+    }
   }
 
   const Decomposition& decomposition_;
@@ -152,9 +176,9 @@ void GeometryBuilder::check_bodies_are_resolved() const {
 }
 
 void GeometryBuilder::sample_cells() {
-  for_each_cell(size_, [&](int i, int j, int k) {
-    double open = 1.0;
-    if (solid_) open = open_fraction(*solid_, cell_centre(i, j, k), half_cell_);
+  for_each_cell(size_, [&](int i, int j, int k) { walls_.wall_fraction(i, j, k) = 0.0; });
+  for_each_near_bodies(size_, [&](int i, int j, int k) {
+    const double open = open_fraction(*solid_, cell_centre(i, j, k), half_cell_);
     walls_.wall_fraction(i, j, k) = open < sliver ? 1.0 : open > 1 - sliver ? 0.0 : 1.0 - open;
   });
   fill_ghosts(decomposition_, walls_.wall_fraction);
@@ -164,18 +188,19 @@ void GeometryBuilder::sample_faces(int d) {
   Vec3 half_face = half_cell_;
   half_face[d] = 0.0;
   for_each_face(decomposition_, d, [&](int i, int j, int k) {
-    const std::ptrdiff_t n = walls_.open_area[d].index(i, j, k);
     const int side = side_of_face(d, Index3{i, j, k}[d]);
-    double open = is_open(d, side, i, j, k) ? 1.0 : 0.0;
-    if (solid_) {
-      const Vec3 centre = cell_centre(i, j, k) - half_cell_[d] * Vec3::Unit(d);
-      if (open > 0.0) open = open_fraction(*solid_, centre, half_face);
-      const DistanceSample sample = solid_->sample(centre);
-      walls_.distance[d][n] = sample.distance;
-      for (int e = 0; e < 3; ++e) walls_.normal[d][e][n] = sample.gradient[e];
-      walls_.nearest_body[d][n] = static_cast<double>(nearest_body(centre));
-    }
-    walls_.open_area[d][n] = open < sliver ? 0.0 : open > 1 - sliver ? 1.0 : open;
+    walls_.open_area[d](i, j, k) = is_open(d, side, i, j, k) ? 1.0 : 0.0;
+  });
+  for_each_near_bodies(owned_faces(decomposition_, d), [&](int i, int j, int k) {
+    const std::ptrdiff_t n = walls_.open_area[d].index(i, j, k);
+    double& open = walls_.open_area[d][n];
+    const Vec3 centre = cell_centre(i, j, k) - half_cell_[d] * Vec3::Unit(d);
+    if (open > 0.0) open = open_fraction(*solid_, centre, half_face);
+    const DistanceSample sample = solid_->sample(centre);
+    walls_.distance[d][n] = sample.distance;
+    for (int e = 0; e < 3; ++e) walls_.normal[d][e][n] = sample.gradient[e];
+    walls_.nearest_body[d][n] = static_cast<double>(nearest_body(centre));
+    open = open < sliver ? 0.0 : open > 1 - sliver ? 1.0 : open;
   });
 }
 
@@ -271,6 +296,13 @@ void GeometryBuilder::choose_hosts() {
 
 WallGeometry make_wall_geometry(const Decomposition& decomposition, const SideConditions& sides,
                                 const std::vector<Body>& bodies, double time) {
+  GeometryBuilder builder(decomposition, sides, bodies, time);
+  builder.check();
+  return builder.build();
+}
+
+WallGeometry move_wall_geometry(const Decomposition& decomposition, const SideConditions& sides,
+                                const std::vector<Body>& bodies, double time) {
   return GeometryBuilder(decomposition, sides, bodies, time).build();
 }
 
@@ -284,6 +316,7 @@ void set_wall_velocities(WallGeometry& walls, const Decomposition& decomposition
   for (int d = 0; d < 3; ++d) {
     for_each_face(decomposition, d, [&](int i, int j, int k) {
       const std::ptrdiff_t n = walls.distance[d].index(i, j, k);
+      if (walls.nearest_body[d][n] < 0.0) return;
       Vec3 steps(i + first[0] + 0.5, j + first[1] + 0.5, k + first[2] + 0.5);
       steps[d] -= 0.5;
       Vec3 place = grid.lower + steps.cwiseProduct(h);

@@ -46,7 +46,8 @@ CoupledRun::Case CoupledRun::read_case(const std::string& case_file) {
     file.fail("fixed_bed", "cannot be combined with grains; remove it or use gasgrain-gas");
   }
   if (!settings.gas.probes.empty()) {
-    file.fail("probe", "is for gasgrain-gas; remove the probes, timeseries.csv has the bed's values");
+    file.fail("probe",
+              "is for gasgrain-gas; remove the probes, timeseries.csv has the bed's values");
   }
   return settings;
 }
@@ -71,7 +72,7 @@ void CoupledRun::begin(std::span<Vec3> forces) {
   begun_ = true;
   if (!directory_.empty()) files_ = std::make_unique<RunFiles>(communicator_, directory_);
   watch_bed();
-  row_.exchange = coupling_.begin(forces, host_.records());
+  row_.exchange = coupling_.begin(forces, host_.records(), host_.time());
   held_force_ = row_.exchange.force_on_grains;
   audit_.begin(host_.totals(), case_.options.feedback);
   host_.take_wall_impulse();

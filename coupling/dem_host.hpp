@@ -36,6 +36,7 @@ class DemHost {
  public:
   virtual ~DemHost() = default;
 
+  virtual double time() const = 0;   // s, of the script
   virtual double step() const = 0;   // s
   virtual Vec3 gravity() const = 0;  // m/s^2; known from the set-up of the first run on
   virtual RunProgress progress() const = 0;

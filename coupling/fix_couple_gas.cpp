@@ -237,6 +237,10 @@ double FixCoupleGas::memory_usage() {
   return double(held_.size() * sizeof(Vec3));
 }
 
+double FixCoupleGas::time() const {
+  return update->get_cur_time();
+}
+
 double FixCoupleGas::step() const {
   return update->dt;
 }

@@ -65,6 +65,7 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
   bool end_of_step_uses_atoms() const override { return run_->exchange_due(); }
 
  private:
+  double time() const override;
   double step() const override;
   Vec3 gravity() const override;
   RunProgress progress() const override;

@@ -76,8 +76,12 @@ void GasCoupling::find_closed_cells() {
   }
 }
 
-ExchangeReport GasCoupling::begin(std::span<Vec3> forces, std::span<const GrainRecord> grains) {
+ExchangeReport GasCoupling::begin(std::span<Vec3> forces, std::span<const GrainRecord> grains,
+                                  double clock) {
   report_ = {};
+  gas_.set_body_clock(clock);
+  deposition_.set_walls(gas_.walls());
+  find_closed_cells();
   send_grains_to_gas_ranks(grains);
   deposit_void_fraction();
   gas_.grains().void_fraction = void_fraction_;

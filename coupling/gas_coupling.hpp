@@ -22,8 +22,9 @@ class GasCoupling {
   GasCoupling(const cfd::GasCase& gas_case, const CouplingOptions& options, MPI_Comm communicator);
 
   // First exchange: the grains appear in a gas in its initial state. `forces` [N] gets one entry
-  // per local grain, zero for grains outside the grid.
-  ExchangeReport begin(std::span<Vec3> forces, std::span<const GrainRecord> grains);
+  // per local grain, zero for grains outside the grid. `clock` [s] is what moving bodies go by.
+  ExchangeReport begin(std::span<Vec3> forces, std::span<const GrainRecord> grains,
+                       double clock = 0.0);
   // The grains moved for `interval` [s]: advances the gas over it and returns the new forces.
   ExchangeReport exchange(std::span<Vec3> forces, std::span<const GrainRecord> grains,
                           double interval);

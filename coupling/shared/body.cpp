@@ -261,6 +261,7 @@ Vec3 torque_point_at(const Body& body, double time) {
 
 Vec3 surface_velocity_at(const Body& body, const Vec3& x, double time) {
   if (body.motion.is_at_rest()) return body.surface_velocity;
+  if (body.surface_velocity.isZero(0)) return body.motion.velocity_at(x, time);
   return body.motion.velocity_at(x, time) + body.motion.pose(time).rotation * body.surface_velocity;
 }
 
