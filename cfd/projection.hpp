@@ -10,14 +10,6 @@
 
 namespace gasgrain::cfd {
 
-// dt / (rho (1 + K)) = dt / (rho + dt B / eps): the velocity of face n of direction d that a unit
-// pressure gradient removes, m^2 s/kg.
-inline double mobility(const FaceMedium& medium, double density, double dt, int d,
-                       std::ptrdiff_t n) {
-  if (!medium.has_grains) return dt / density;
-  return dt / (density + dt * medium.momentum_exchange[d][n] / medium.void_fraction[d][n]);
-}
-
 class Projection {
  public:
   // Largest of the regions without outlet.

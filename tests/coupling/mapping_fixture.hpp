@@ -40,11 +40,13 @@ struct MappingScene {
 
   // A tube across the grid, off the grid lines.
   static Body cylinder() {
-    return {.name = "tube",
-            .shape = make_shape(Cylinder{.center = Vec3(0.43, 0.5, 0.52),
-                                         .axis = Vec3(0, 1, 0),
-                                         .radius = 0.23,
-                                         .half_length = 10})};
+    Body body;
+    body.name = "tube";
+    body.shape = make_shape(Cylinder{.center = Vec3(0.43, 0.5, 0.52),
+                                     .axis = Vec3(0, 1, 0),
+                                     .radius = 0.23,
+                                     .half_length = 10});
+    return body;
   }
 
   // Places in the open space, the same on every rank; grains of this rank are those in its block.

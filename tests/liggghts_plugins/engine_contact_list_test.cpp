@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 #include <utility>
@@ -47,7 +48,10 @@ struct Crowd {
   void choose(double margin) {
     list.choose_near_pairs(grains.data(), margin, true, [](int, int) { return law; });
   }
-  void add_loads(TangentialModel model, double slip_time) {
+  void add_loads(TangentialModel tangential, double slip_time) {
+    const PairModel model{.normal = NormalModel::linear,
+                          .tangential = tangential,
+                          .least_normal_force = -std::numeric_limits<double>::infinity()};
     for (int block = 0; block < list.block_count(); ++block)
       list.add_contact_loads(block,
                              {.grains = grains.data(),
@@ -61,6 +65,7 @@ struct Crowd {
                               .count = 0,
                               .dummy = 0,
                               .slip_time = slip_time,
+                              .least_normal_force = model.least_normal_force,
                               .largest = largest},
                              model, true);
   }
@@ -183,6 +188,7 @@ TEST(ContactKernel, integrates_as_velocity_verlet) {
                          .spins = crowd.spins.data(),
                          .ring = crowd.ring,
                          .held_forces = held,
+                         .fixed = nullptr,
                          .begin = 0,
                          .end = 3,
                          .gravity = {0, 0, -9.81},
