@@ -232,8 +232,7 @@ void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double d
   set_solid_faces(velocity, domain);
   fill_velocity_ghosts(domain, medium, velocity);
   if (domain.walls.has_bodies) {
-    report.momentum.body =
-        immersed_boundary.apply(velocity, domain, medium, projection.pressure_gradient(), dt);
+    report.momentum.body = immersed_boundary.apply(velocity, domain, medium, dt);
     fill_velocity_ghosts(domain, medium, velocity);
   }
   if (driving.present()) {

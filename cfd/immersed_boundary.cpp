@@ -1,18 +1,11 @@
 // At an open face at distance 0 <= phi < dx from a body the predicted velocity becomes
 //
-//   (1 - w) u* + w (u_IB + (c/eps) grad p_old(x + delta n)),
-//   u_IB = u_wall + phi/(phi + delta) ( u~(x + delta n) - u_wall ),     u~ = u* - (c/eps) grad
-//   p_old, w = 1 / (1 + beta phi (phi + delta) / (eps mu)),     delta = 1.5 dx,
+//   (1 - w) u* + w u_IB,     u_IB = u_wall + phi/(phi + delta) ( u*(x + delta n) - u_wall ),
+//   w = 1 / (1 + beta phi (phi + delta) / (eps mu)),     delta = 1.5 dx,
 //
 // the linear profile along the wall normal through a point one and a half cells further out, where
-// u~ comes from trilinear interpolation among faces of the same direction. Second order; forcing by
+// u* comes from trilinear interpolation among faces of the same direction. Second order; forcing by
 // volume fractions would be first order with a wall position that depends on the time step.
-//
-// The pressure gradient of the last step stands in for the one to come: the profile is that of the
-// velocity after the correction, and what the correction will take away is added. Without it a
-// steady gradient of rho g would leave a velocity of the order of g dt at the wall. It is taken
-// further out and not at the face itself, where it would keep any share between body force and
-// pressure that it once had.
 //
 // The weight w compares the thickness of the layer in which drag gives way to wall friction,
 // sqrt(eps mu / beta), with the distance: inside a dense bed that layer is a hundred times thinner
@@ -79,9 +72,7 @@ ImmersedBoundary::ImmersedBoundary(const GasDomain& domain) : varies_(domain.var
   }
 }
 
-// Trilinear interpolation of value(storage index) to the face's probe.
-template <class Value>
-double ImmersedBoundary::at_point(const Face& face, const Field& like, const Value& value) const {
+double ImmersedBoundary::at_point(const Face& face, const Field& velocity) const {
   double sum = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
     double weight = 1.0;
@@ -89,15 +80,15 @@ double ImmersedBoundary::at_point(const Face& face, const Field& like, const Val
     for (int e = 0; e < 3; ++e) {
       const bool upper = corner >> e & 1;
       weight *= upper ? face.weight[e] : 1.0 - face.weight[e];
-      if (upper) n += like.stride(e);
+      if (upper) n += velocity.stride(e);
     }
-    if (weight != 0.0) sum += weight * value(n);
+    if (weight != 0.0) sum += weight * velocity[n];
   }
   return sum;
 }
 
 Vec3 ImmersedBoundary::apply(VectorField& velocity, const GasDomain& domain,
-                             const FaceMedium& medium, const VectorField& gradient, double dt) {
+                             const FaceMedium& medium, double dt) {
   Vec3 impulse = Vec3::Zero();
   const double mu = domain.gas.viscosity, rho = domain.gas.density;
   if (mu == 0.0) return impulse;
@@ -105,27 +96,13 @@ Vec3 ImmersedBoundary::apply(VectorField& velocity, const GasDomain& domain,
     Field& u = velocity[d];
     std::vector<double>& changed = changed_;
     changed.clear();
-    const auto expected = [&](std::ptrdiff_t n) {
-      return u[n] - mobility(medium, rho, dt, d, n) * gradient[d][n];
-    };
-    const auto is_free = [&](std::ptrdiff_t n) {
-      const bool far = domain.walls.distance[d][n] >= probe_length_ / probe_cells;
-      return far ? domain.walls.takes_part[d][n] : 0.0;
-    };
-    const auto pressure_gradient = [&](std::ptrdiff_t n) { return is_free(n) * gradient[d][n]; };
     for (Face& face : faces_[d]) {
       const double beta = medium.has_grains ? medium.momentum_exchange[d][face.face] : 0.0;
       const double eps = face_void_fraction(medium, d, face.face);
       const double phi = face.distance, wall = domain.walls.wall_velocity[d][face.face];
       const double w = 1.0 / (1.0 + beta * phi * (phi + probe_length_) / (eps * mu));
-      const double profile =
-          wall + phi / (phi + probe_length_) * (at_point(face, u, expected) - wall);
-      // from faces that are not imposed themselves
-      const double free = at_point(face, u, is_free);
-      const double slope =
-          free > 0.0 ? at_point(face, u, pressure_gradient) / free : gradient[d][face.face];
-      const double removed = mobility(medium, rho, dt, d, face.face) * slope;
-      changed.push_back((1.0 - w) * u[face.face] + w * (profile + removed));
+      const double profile = wall + phi / (phi + probe_length_) * (at_point(face, u) - wall);
+      changed.push_back((1.0 - w) * u[face.face] + w * profile);
       // eps rho (1 + K) is what a change of u* is worth in the final velocity's balance
       face.impulse = domain.control_volume[d][face.face] * (eps * rho + dt * beta) *
                      (changed.back() - u[face.face]);

@@ -12,11 +12,9 @@ class ImmersedBoundary {
  public:
   explicit ImmersedBoundary(const GasDomain& domain);
 
-  // Changes the predicted velocity (ghosts filled) of the faces with 0 <= phi < dx. `gradient` is
-  // that of the pressure of the last step, Pa/m, ghosts filled; `dt` in s. Returns the momentum that
-  // this adds to the gas of this rank, N s.
-  Vec3 apply(VectorField& velocity, const GasDomain& domain, const FaceMedium& medium,
-             const VectorField& gradient, double dt);
+  // Changes the predicted velocity (ghosts filled) of the faces with 0 <= phi < dx. `dt` in s.
+  // Returns the momentum that this adds to the gas of this rank, N s.
+  Vec3 apply(VectorField& velocity, const GasDomain& domain, const FaceMedium& medium, double dt);
 
   // visit(direction, index of the body, position [m], momentum added to the gas by the last apply()
   // [N s]) for every face.
@@ -38,8 +36,7 @@ class ImmersedBoundary {
     double impulse;       // added by the last apply(), N s
   };
 
-  template <class Value>
-  double at_point(const Face& face, const Field& like, const Value& value) const;
+  double at_point(const Face& face, const Field& velocity) const;
 
   double probe_length_ = 0.0;               // delta, m
   std::array<bool, 3> varies_{};            // directions to interpolate in

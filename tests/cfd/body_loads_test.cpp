@@ -91,21 +91,5 @@ TEST(BodyLoads, of_resting_gas_are_its_buoyancy_at_the_middle_of_the_body) {
   EXPECT_LT(load.friction.norm(), 1e-12 * weight);
 }
 
-// A resting gas whose weight its pressure carries, viscous and cut by bodies off the grid lines.
-// The no-slip condition has nothing to do there; imposed on a velocity that still lacks the
-// pressure gradient it would stir the gas with about g dt = 1e-2 m/s for ever.
-TEST(BodyLoads, hold_next_to_no_friction_in_gas_that_rests) {
-  GasCase c = box_case(Vec3(1, 1, 1), {12, 12, 12});
-  c.gas = {.density = 1.2, .viscosity = 0.6, .gravity = Vec3(1.0, 2.0, -9.81)};
-  c.numerics.pressure_tolerance = 1e-12;
-  c.bodies = bodies("[[body]]\nname='b'\nsphere={center=[0.52,0.43,0.55],radius=0.27}\n");
-  GasSolver solver(c, MPI_COMM_WORLD);
-  StepReport report;
-  for (int n = 0; n < 400; ++n) report = solver.advance(1e-3);
-  EXPECT_LT(report.largest_speed, 2e-3);  // a fifth of g dt
-  const double weight = 1.2 * 10.06 * 4.0 / 3.0 * std::numbers::pi * std::pow(0.27, 3);
-  EXPECT_LT(solver.body_loads()[0].friction.norm(), 5e-3 * weight);
-}
-
 }  // namespace
 }  // namespace gasgrain::cfd
