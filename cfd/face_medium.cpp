@@ -38,48 +38,62 @@ class Weights {
   const double* share_;
 };
 
-// The cells' values with those of lenders joined to their hosts', weighted by open volume. Without
-// lenders it is `cells` itself; otherwise `joined` holds the result.
-const Field& join_lenders(Field& joined, const GasDomain& domain, int d, const Field& cells) {
-  if (domain.lenders[d].empty()) return cells;
-  joined = cells;
+// While `visit` runs the hosts among the cells have the value joined with that of their lenders,
+// weighted by open volume. `values` is work space.
+template <class Visit>
+void with_lenders_joined(std::vector<double>& values, Field& cells, const GasDomain& domain, int d,
+                         const Visit& visit) {
+  const std::vector<Lender>& lenders = domain.lenders[d];
   const Field &own = domain.open_share, &joint = domain.joint_share[d];
-  for (const Lender& lender : domain.lenders[d]) {  // a host of several is set to the same again
-    joined[lender.host] = cells[lender.host] * own[lender.host] / joint[lender.host];
+  values.clear();
+  for (const Lender& lender : lenders) {
+    values.push_back(cells[lender.cell]);
+    values.push_back(cells[lender.host]);
   }
-  for (const Lender& lender : domain.lenders[d]) {
-    joined[lender.host] += cells[lender.cell] * own[lender.cell] / joint[lender.host];
+  for (std::size_t n = 0; n < lenders.size(); ++n) {  // a host of several is set to the same again
+    const std::ptrdiff_t host = lenders[n].host;
+    cells[host] = values[2 * n + 1] * own[host] / joint[host];
   }
-  return joined;
+  for (std::size_t n = 0; n < lenders.size(); ++n) {
+    cells[lenders[n].host] += values[2 * n] * own[lenders[n].cell] / joint[lenders[n].host];
+  }
+  visit();
+  for (std::size_t n = 0; n < lenders.size(); ++n) cells[lenders[n].host] = values[2 * n + 1];
 }
 
 void update_void_fraction(FaceMedium& medium, const GasDomain& domain, int d) {
-  const Field& cells = join_lenders(medium.joined[0], domain, d, medium.cell_void_fraction);
+  Field& cells = medium.cell_void_fraction;
   const Index3& size = domain.size();
   IndexBox box{{-halo, -halo, -halo}, {size[0] + halo, size[1] + halo, size[2] + halo}};
   box.begin[d] += 1;  // the lowest ghost face has only one cell
   const Weights w(domain, d);
   const double* cell = cells.data();
   double* face = medium.void_fraction[d].data();
-  for_box(box, cells, [=](std::ptrdiff_t n) {
-    const double below = cell[n - w.stride()], above = cell[n];
-    const double sum = w.below(n) + w.above(n);
-    const double mean = (w.below(n) * below + w.above(n) * above) / (sum > 0.0 ? sum : 1.0);
-    face[n] = sum > 0.0 ? mean : 0.5 * (below + above);
+  with_lenders_joined(medium.lent[0], cells, domain, d, [&] {
+    for_box(box, cells, [=](std::ptrdiff_t n) {
+      const double below = cell[n - w.stride()], above = cell[n];
+      const double sum = w.below(n) + w.above(n);
+      const double mean = (w.below(n) * below + w.above(n) * above) / (sum > 0.0 ? sum : 1.0);
+      face[n] = sum > 0.0 ? mean : 0.5 * (below + above);
+    });
   });
 }
 
-void update_drag(FaceMedium& medium, const GasDomain& domain, const GrainPhase& grains, int d) {
-  const double* b = join_lenders(medium.joined[0], domain, d, grains.momentum_exchange).data();
-  const double* bv = join_lenders(medium.joined[1], domain, d, grains.exchange_momentum[d]).data();
+void update_drag(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains, int d) {
+  Field &cells_b = grains.momentum_exchange, &cells_bv = grains.exchange_momentum[d];
+  const double *b = cells_b.data(), *bv = cells_bv.data();
   const Weights w(domain, d);
   double* face_b = medium.momentum_exchange[d].data();
   double* face_bv = medium.exchange_momentum[d].data();
-  for_box(all_faces(domain, d), grains.momentum_exchange, [=](std::ptrdiff_t n) {
-    const double below = w.below(n), above = w.above(n), sum = below + above;
-    const double scale = (sum > 0.0 ? 1.0 : 0.0) / (sum > 0.0 ? sum : 1.0);
-    face_b[n] = scale * (below * b[n - w.stride()] + above * b[n]);
-    face_bv[n] = scale * (below * bv[n - w.stride()] + above * bv[n]);
+  with_lenders_joined(medium.lent[0], cells_b, domain, d, [&] {
+    with_lenders_joined(medium.lent[1], cells_bv, domain, d, [&] {
+      for_box(all_faces(domain, d), cells_b, [=](std::ptrdiff_t n) {
+        const double below = w.below(n), above = w.above(n), sum = below + above;
+        const double scale = (sum > 0.0 ? 1.0 : 0.0) / (sum > 0.0 ? sum : 1.0);
+        face_b[n] = scale * (below * b[n - w.stride()] + above * b[n]);
+        face_bv[n] = scale * (below * bv[n - w.stride()] + above * bv[n]);
+      });
+    });
   });
 }
 

@@ -17,7 +17,8 @@ struct FaceMedium {
   EdgeVoidFraction edges;         // eps on cell edges
   VectorField momentum_exchange;  // B_f on owned faces, kg m^-3 s^-1
   VectorField exchange_momentum;  // (B v)_f on owned faces, kg m^-2 s^-2
-  std::array<Field, 2> joined;    // work space: cells' values joined with those of lenders
+  // Work space: values of cells that lend and of their hosts.
+  std::array<std::vector<double>, 2> lent;
 };
 
 FaceMedium make_face_medium(const GasDomain& domain);

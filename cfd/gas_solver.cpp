@@ -97,7 +97,6 @@ struct GasSolver::State {
   Vec3 speeds = Vec3::Zero();  // largest |u| per direction of all ranks, m/s
   Field pressure;
   Field old_void_fraction;  // of the cells at the start of the step
-  VectorField gas_flux;     // eps u on faces, m/s: work space of the convection
   Slope slope, old_slope;
   IntervalMeans means;
   double time = 0.0, previous_dt = 0.0;
@@ -171,13 +170,26 @@ void GasSolver::State::evaluate_slope() {
   if (domain.has_motion) {  // the volumes of faces have changed
     old_slope.convection = volume_integral(domain, old_slope.total) - old_slope.viscous;
   }
-  for (Field& component : slope.total) component.fill(0.0);
-  add_convection(slope.total, domain, medium, velocity, gas_case.numerics.convection, gas_flux);
-  slope.convection = volume_integral(domain, slope.total);
-  add_viscous_stress(slope.total, domain, medium, velocity);
-  slope.viscous = domain.gas.viscosity > 0.0
-                      ? Vec3(volume_integral(domain, slope.total) - slope.convection)
-                      : Vec3(Vec3::Zero());
+  const Convection scheme = gas_case.numerics.convection;
+  slope.convection = slope.viscous = Vec3::Zero();
+  for (int d = 0; d < 3; ++d) {
+    if (!domain.solved[d]) continue;
+    Field& total = slope.total[d];
+    const auto integral = [&, volume = domain.control_volume[d].data(),
+                           value = total.data()](const IndexBox& box) {
+      return sum_box(box, total, [=](std::ptrdiff_t n) { return volume[n] * value[n]; });
+    };
+    for_each_part(all_faces(domain, d), [&](const IndexBox& part) {
+      for_box(part, total, [value = total.data()](std::ptrdiff_t n) { value[n] = 0.0; });
+      add_convection(total, domain, part, medium, velocity, scheme, d);
+      const double convection = integral(part);
+      slope.convection[d] += convection;
+      if (domain.gas.viscosity == 0.0) return;
+      add_viscous_stress(total, domain, part, medium, velocity, d);
+      slope.viscous[d] += integral(part) - convection;
+    });
+    slope.convection[d] += add_convection_on_sides(total, domain, medium, velocity, scheme, d);
+  }
 }
 
 // Steps 1 and 2 on the faces that take part.
