@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -98,6 +99,7 @@ struct GasSolver::State {
   Field pressure;
   Field old_void_fraction;  // of the cells at the start of the step
   Slope slope, old_slope;
+  std::optional<Vec3> momentum;  // of this rank's gas, while it is what the last step left, N s
   IntervalMeans means;
   double time = 0.0, previous_dt = 0.0;
   Vec3 momentum_of_moved_walls = Vec3::Zero();  // change of this rank's gas momentum by them, N s
@@ -130,6 +132,7 @@ void GasSolver::State::set_velocity(const std::function<Vec3(const Vec3&)>& func
   set_solid_faces(velocity, domain);
   fill_velocity_ghosts(domain, medium, velocity);
   speeds = largest_speeds(domain, velocity);
+  momentum.reset();
   previous_dt = 0.0;
 }
 
@@ -149,12 +152,13 @@ bool GasSolver::State::move_bodies(double new_time) {
     fill_scalar_ghosts(domain, medium.cell_void_fraction);
     grains.void_fraction = medium.cell_void_fraction;
   }
-  medium.edges = make_edge_void_fraction(domain);
+  cfd::find_walls(medium, domain);
   if (medium.has_grains) update(medium.edges, domain, medium.cell_void_fraction);
   fill_fresh_cells(pressure, domain, old_open_share);
   find_walls();
   fill_velocity_ghosts(domain, medium, velocity);
-  momentum_of_moved_walls += gas_momentum(domain, medium, velocity) - momentum_before;
+  momentum = gas_momentum(domain, medium, velocity);
+  momentum_of_moved_walls += *momentum - momentum_before;
   return true;
 }
 
@@ -253,7 +257,7 @@ void GasSolver::State::visit(StateArchive& archive) {
   archive.number("walls_time", walls_time);
   if (archive.restores() && domain.has_motion) {
     domain.move_to(walls_time);
-    medium.edges = make_edge_void_fraction(domain);
+    cfd::find_walls(medium, domain);
     find_walls();
   }
   archive.faces("velocity", velocity);
@@ -283,6 +287,7 @@ void GasSolver::State::rebuild() {
   update(medium, domain, grains);
   fill_velocity_ghosts(domain, medium, velocity);
   fill_ghosts(domain.decomposition, pressure);
+  momentum.reset();
   projection.restore(pressure);
   speeds = largest_speeds(domain, velocity);
 }
@@ -307,7 +312,8 @@ StepReport GasSolver::advance(double dt) {
 
   s.evaluate_slope();
   clock.finish(report.times, Pass::slope);
-  const Vec3 momentum_at_start = gas_momentum(domain, s.medium, s.velocity);
+  const Vec3 momentum_at_start =
+      s.momentum ? *s.momentum : gas_momentum(domain, s.medium, s.velocity);
   const Vec3 momentum_before = momentum_at_start - s.momentum_of_moved_walls;
   s.momentum_of_moved_walls = Vec3::Zero();
   update(s.medium, domain, s.grains);
@@ -347,7 +353,8 @@ StepReport GasSolver::advance(double dt) {
   report.largest_speed = s.speeds.maxCoeff();
   report.courant_number = dt * s.speeds.cwiseQuotient(domain.spacing).maxCoeff();
   clock.finish(report.times, Pass::correct);
-  budget.stored = gas_momentum(domain, s.medium, s.velocity) - momentum_before;
+  s.momentum = gas_momentum(domain, s.medium, s.velocity);
+  budget.stored = *s.momentum - momentum_before;
   budget.convection =
       momentum_with_new_void - momentum_before +
       dt * (weights.now * s.slope.convection + weights.before * s.old_slope.convection);
@@ -407,6 +414,7 @@ void GasSolver::visit_state(StateArchive& archive) {
 void GasSolver::accept_void_fraction_as_old() {
   update(state_->medium, state_->domain, state_->grains);
   fill_velocity_ghosts(state_->domain, state_->medium, state_->velocity);
+  state_->momentum.reset();
 }
 
 double GasSolver::largest_stable_step() const {
@@ -417,28 +425,34 @@ double GasSolver::largest_stable_step() const {
 
 void GasSolver::State::sample(VectorField& velocity_at_cells, VectorField& gradient_at_cells,
                               const VectorField& u, const VectorField& gradient) const {
-  for (int d = 0; d < 3; ++d) {
-    velocity_at_cells[d] = gradient_at_cells[d] = Field(domain.size());
-    for_each_cell(domain.size(), [&](int i, int j, int k) {
-      const std::ptrdiff_t n = u[d].index(i, j, k), above = n + u[d].stride(d);
-      const double lower = domain.walls.lower_share[d][n], upper = domain.walls.upper_share[d][n];
-      const bool free = lower + upper > 0.0;
-      velocity_at_cells[d][n] =
-          free ? lower * u[d][n] + upper * u[d][above] : 0.5 * (u[d][n] + u[d][above]);
-      gradient_at_cells[d][n] = lower * gradient[d][n] + upper * gradient[d][above];
-    });
+  IndexBox cells{{0, 0, 0}, domain.size()};
+  for (int d = 0; d < 3 && domain.any_lenders; ++d) {  // hosts of lenders are also first ghosts
+    if (!domain.decomposition.at_boundary(d, 0)) cells.begin[d] -= 1;
+    if (!domain.decomposition.at_boundary(d, 1)) cells.end[d] += 1;
   }
-  fill_ghosts(domain.decomposition, velocity_at_cells);
-  fill_ghosts(domain.decomposition, gradient_at_cells);
-  if (!domain.any_lenders) return;
   for (int d = 0; d < 3; ++d) {
+    for (VectorField* result : {&velocity_at_cells, &gradient_at_cells}) {
+      if ((*result)[d].size() != domain.size()) (*result)[d] = Field(domain.size());
+    }
+    const std::ptrdiff_t s = u[d].stride(d);
+    const double* lower = domain.walls.lower_share[d].data();
+    const double* upper = domain.walls.upper_share[d].data();
+    for_box(cells, u[d], [=, u = u[d].data(), result = velocity_at_cells[d].data()](auto n) {
+      const bool free = lower[n] + upper[n] > 0.0;
+      const double mean = lower[n] * u[n] + upper[n] * u[n + s];
+      result[n] = free ? mean : 0.5 * (u[n] + u[n + s]);
+    });
+    for_box(cells, u[d], [=, g = gradient[d].data(), result = gradient_at_cells[d].data()](auto n) {
+      result[n] = lower[n] * g[n] + upper[n] * g[n + s];
+    });
     for (const Lender& lender : domain.lenders[d]) {
       velocity_at_cells[d][lender.cell] = velocity_at_cells[d][lender.host];
       gradient_at_cells[d][lender.cell] = gradient_at_cells[d][lender.host];
     }
   }
-  fill_ghosts(domain.decomposition, velocity_at_cells);
-  fill_ghosts(domain.decomposition, gradient_at_cells);
+  Field* const results[] = {&velocity_at_cells[0], &velocity_at_cells[1], &velocity_at_cells[2],
+                            &gradient_at_cells[0], &gradient_at_cells[1], &gradient_at_cells[2]};
+  fill_ghosts(domain.decomposition, results);
 }
 
 void GasSolver::sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const {

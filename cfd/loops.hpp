@@ -35,14 +35,19 @@ void for_each_row(const IndexBox& box, const Field& like, Visit&& visit) {
   }
 }
 
+// visit(storage index) for every index of one row; as in for_box.
+template <class Visit>
+void for_row(std::ptrdiff_t first, int length, const Visit& visit) {
+#pragma omp simd
+  for (std::ptrdiff_t n = first; n < first + length; ++n) visit(n);
+}
+
 // visit(storage index) for every index of the box. The visits must not depend on each other: rows
 // are vectorized. Lambdas that capture raw pointers by value run fastest.
 template <class Visit>
 void for_box(const IndexBox& box, const Field& like, const Visit& visit) {
-  for_each_row(box, like, [&visit](std::ptrdiff_t first, int length) {
-#pragma omp simd
-    for (std::ptrdiff_t n = first; n < first + length; ++n) visit(n);
-  });
+  for_each_row(box, like,
+               [&visit](std::ptrdiff_t first, int length) { for_row(first, length, visit); });
 }
 
 // visit(part) for parts of the box that are some rows thick: fields of one part stay in the fastest
