@@ -45,14 +45,25 @@ struct Strides {
   std::ptrdiff_t component;  // direction of the component
 };
 
+// F on faces.
+struct GrainsFlux {
+  const double* eps;
+  const double* u;
+  double operator[](std::ptrdiff_t n) const { return eps[n] * u[n]; }
+};
+
+struct PlainFlux {
+  const double* u;
+  double operator[](std::ptrdiff_t n) const { return u[n]; }
+};
+
 // slope -= scale * (F_hi (u_hi - u) - F_lo (u_lo - u)) on the faces of `box`. The flux at the side
 // between faces n and n + along is the mean of F at n + along shifted to both cells of the face, or
 // of F at n and n + along when the transport is along the component itself.
-template <class Scheme>
-void transport(Field& slope, const IndexBox& box, const Field& flux, const Field& velocity,
+template <class Scheme, class Flux>
+void transport(Field& slope, const IndexBox& box, const Flux& f, const Field& velocity,
                const Strides& s, double scale) {
   const double* u = velocity.data();
-  const double* f = flux.data();
   double* result = slope.data();
   const bool along_component = s.along == s.component;
   const std::ptrdiff_t first = along_component ? s.along : s.along - s.component;
@@ -70,26 +81,34 @@ void transport(Field& slope, const IndexBox& box, const Field& flux, const Field
   });
 }
 
-// Normal transport on the faces of an outlet, see the head of the file.
-void leave(Field& slope, const GasDomain& domain, int d, int side, const Field& flux,
-           const Field& velocity) {
+// Normal transport on the faces of an outlet, see the head of the file. Returns the integral.
+template <class Flux>
+double leave(Field& slope, const GasDomain& domain, int d, int side, const Flux& flux,
+             const Field& velocity) {
   const double scale = domain.gas.density / domain.spacing[d];
   const std::ptrdiff_t inwards = (side == 0 ? 1 : -1) * slope.stride(d);
+  double integral = 0.0;
   for_each_outlet_face(domain, d, side, [&](auto, auto n, const SideCondition& condition) {
     const double outflow = side == 0 ? -flux[n] : flux[n];
     const double carried = condition.backflow == Backflow::still ? 0.0 : velocity[n];
-    slope[n] -= scale * (std::max(outflow, 0.0) * (velocity[n] - velocity[n + inwards]) +
-                         std::max(-outflow, 0.0) * (velocity[n] - carried));
+    const double change = -scale * (std::max(outflow, 0.0) * (velocity[n] - velocity[n + inwards]) +
+                                    std::max(-outflow, 0.0) * (velocity[n] - carried));
+    slope[n] += change;
+    integral += domain.control_volume[d][n] * change;
   });
+  return integral;
 }
 
 // Component d of what enters through an outlet across direction e: the mirrored value outside makes
-// transport() carry the velocity there is; this takes it away.
-void enter_still(Field& slope, const GasDomain& domain, int d, int e, int side, const Field& flux,
-                 const Field& velocity) {
+// transport() carry the velocity there is; this takes it away. Returns the integral.
+template <class Flux>
+double enter_still(Field& slope, const GasDomain& domain, int d, int e, int side, const Flux& flux,
+                   const Field& velocity) {
+  double integral = 0.0;
   if (!domain.sides.has(e, side, BoundaryType::outlet) ||
       !domain.decomposition.at_boundary(e, side))
-    return;
+    return integral;
+  const Field& part = domain.walls.takes_part[d];
   const double scale = domain.gas.density / domain.spacing[e], inwards = side == 0 ? 1.0 : -1.0;
   const std::ptrdiff_t to_side = side == 1 ? slope.stride(e) : 0;
   const auto inflow = [&](Index3 cell, std::ptrdiff_t n) {
@@ -106,56 +125,63 @@ void enter_still(Field& slope, const GasDomain& domain, int d, int e, int side, 
     Index3 below{i, j, k};
     --below[d];
     const double sum = inflow({i, j, k}, n) + inflow(below, n - slope.stride(d));
-    slope[n] -= scale * 0.5 * sum * velocity[n];
+    const double change = -scale * 0.5 * sum * part[n] * velocity[n];
+    slope[n] += change;
+    integral += domain.control_volume[d][n] * change;
   });
+  return integral;
 }
 
-template <class Scheme>
-void add(VectorField& slope, const GasDomain& domain, const VectorField& flux,
-         const VectorField& velocity) {
-  for (int d = 0; d < 3; ++d) {
-    if (!domain.solved[d]) continue;
-    const auto scale = [&](int e) { return domain.gas.density / domain.spacing[e]; };
-    for (int e = 0; e < 3; ++e) {
-      if (!domain.varies[e] || (e != d && !domain.solved[e])) continue;
-      const Strides strides{slope[d].stride(e), slope[d].stride(d)};
-      const IndexBox box = e == d ? inner_faces(domain, d) : all_faces(domain, d);
-      transport<Scheme>(slope[d], box, flux[e], velocity[d], strides, scale(e));
-    }
-    for (int side = 0; side < 2; ++side) {
-      leave(slope[d], domain, d, side, flux[d], velocity[d]);
-      for (int e = 0; e < 3; ++e) {
-        if (e == d || !domain.solved[e]) continue;
-        enter_still(slope[d], domain, d, e, side, flux[e], velocity[d]);
-      }
-    }
+template <class Scheme, class FluxOf>
+void add(Field& slope, const GasDomain& domain, const IndexBox& box, const FluxOf& flux_of,
+         const VectorField& velocity, int d) {
+  for (int e = 0; e < 3; ++e) {
+    if (!domain.varies[e] || (e != d && !domain.solved[e])) continue;
+    const Strides strides{slope.stride(e), slope.stride(d)};
+    transport<Scheme>(slope, e == d ? intersection(box, inner_faces(domain, d)) : box, flux_of(e),
+                      velocity[d], strides, domain.gas.density / domain.spacing[e]);
   }
 }
 
-void set_gas_flux(VectorField& flux, const FaceMedium& medium, const VectorField& velocity) {
-  for (int d = 0; d < 3; ++d) {
-    if (flux[d].count() == 0) flux[d] = Field(velocity[d].size());
-    double* f = flux[d].data();
-    const double* eps = medium.void_fraction[d].data();
-    const double* u = velocity[d].data();
-    const std::size_t count = flux[d].count();
-#pragma omp simd
-    for (std::size_t n = 0; n < count; ++n) f[n] = eps[n] * u[n];
+// visit(flux of a direction) with what the faces carry.
+template <class Visit>
+void with_flux(const FaceMedium& medium, const VectorField& velocity, const Visit& visit) {
+  if (medium.has_grains) {
+    visit([&](int e) { return GrainsFlux{medium.void_fraction[e].data(), velocity[e].data()}; });
+  } else {
+    visit([&](int e) { return PlainFlux{velocity[e].data()}; });
   }
 }
 
 }  // namespace
 
-void add_convection(VectorField& slope, const GasDomain& domain, const FaceMedium& medium,
-                    const VectorField& velocity, Convection scheme, VectorField& gas_flux) {
+void add_convection(Field& slope, const GasDomain& domain, const IndexBox& box,
+                    const FaceMedium& medium, const VectorField& velocity, Convection scheme,
+                    int d) {
   if (scheme == Convection::none) return;
-  if (medium.has_grains) set_gas_flux(gas_flux, medium, velocity);
-  const VectorField& flux = medium.has_grains ? gas_flux : velocity;
-  if (scheme == Convection::central) {
-    add<Central>(slope, domain, flux, velocity);
-  } else {
-    add<VanLeer>(slope, domain, flux, velocity);
-  }
+  with_flux(medium, velocity, [&](const auto& flux_of) {
+    if (scheme == Convection::central) {
+      add<Central>(slope, domain, box, flux_of, velocity, d);
+    } else {
+      add<VanLeer>(slope, domain, box, flux_of, velocity, d);
+    }
+  });
+}
+
+double add_convection_on_sides(Field& slope, const GasDomain& domain, const FaceMedium& medium,
+                               const VectorField& velocity, Convection scheme, int d) {
+  double integral = 0.0;
+  if (scheme == Convection::none) return integral;
+  with_flux(medium, velocity, [&](const auto& flux_of) {
+    for (int side = 0; side < 2; ++side) {
+      integral += leave(slope, domain, d, side, flux_of(d), velocity[d]);
+      for (int e = 0; e < 3; ++e) {
+        if (e == d || !domain.solved[e]) continue;
+        integral += enter_still(slope, domain, d, e, side, flux_of(e), velocity[d]);
+      }
+    }
+  });
+  return integral;
 }
 
 }  // namespace gasgrain::cfd

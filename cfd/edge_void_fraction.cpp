@@ -42,6 +42,20 @@ void for_each_cell_outside(const GasDomain& domain, const Field& like, Visit vis
   }
 }
 
+// 1 / sum of the shares around the edges along d, 0 where it is 0.
+Field edge_weights(const GasDomain& domain, const Field& share, int d) {
+  Field weights(domain.size());
+  const std::ptrdiff_t a = share.stride((d + 1) % 3), b = share.stride((d + 2) % 3);
+  const Index3& size = domain.size();
+  for_each_in({{-1, -1, -1}, {size[0] + halo, size[1] + halo, size[2] + halo}},
+              [&](int i, int j, int k) {
+                const std::ptrdiff_t n = share.index(i, j, k);
+                const double sum = share[n] + share[n - a] + share[n - b] + share[n - a - b];
+                weights[n] = sum > 0.0 ? 1.0 / sum : 0.0;
+              });
+  return weights;
+}
+
 }  // namespace
 
 double void_fraction_on_side(double first, double second) {
@@ -57,6 +71,7 @@ EdgeVoidFraction make_edge_void_fraction(const GasDomain& domain) {
     edges.share[outside] = edges.share[inside];
   });
   edges.gas = edges.share;
+  for (int d = 0; d < 3; ++d) edges.per_share[d] = edge_weights(domain, edges.share, d);
   return edges;
 }
 

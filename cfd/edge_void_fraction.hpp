@@ -5,10 +5,12 @@
 
 namespace gasgrain::cfd {
 
-// An edge's void fraction is sum(gas) / sum(share) over the four cells around it.
+// An edge's void fraction is sum(gas) / sum(share) over the four cells around it; the edges along d
+// are counted with the cell above them in the other two directions.
 struct EdgeVoidFraction {
   Field share;  // 1 - alpha; outside a side of the grid that of the cell inside, in its corners 0
-  Field gas;    // share * eps; outside such that the mean with the cell inside is eps on the side
+  VectorField per_share;  // [d]: 1 / sum(share) of the edges along d, 0 inside solid
+  Field gas;  // share * eps; outside such that the mean with the cell inside is eps on the side
 };
 
 // With gas = share: no grains.

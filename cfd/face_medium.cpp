@@ -18,68 +18,82 @@ bool any_grains(const GasDomain& domain, const GrainPhase& grains) {
   return max_over_ranks(domain.decomposition, signs) > 0.0;
 }
 
-// Weights of the cell below and above a face; zero sum where the face does not take part.
-class Weights {
- public:
-  Weights(const GasDomain& domain, int d)
-      : stride_(domain.open_share.stride(d)),
-        upper_share_(domain.walls.upper_share[d].data()),
-        lower_share_(domain.walls.lower_share[d].data()),
-        share_(domain.joint_share[d].data()) {}
-
-  double below(std::ptrdiff_t n) const { return upper_share_[n - stride_] * share_[n - stride_]; }
-  double above(std::ptrdiff_t n) const { return lower_share_[n] * share_[n]; }
-  std::ptrdiff_t stride() const { return stride_; }
-
- private:
-  std::ptrdiff_t stride_;
-  const double* upper_share_;
-  const double* lower_share_;
-  const double* share_;
-};
-
-// The cells' values with those of lenders joined to their hosts', weighted by open volume. Without
-// lenders it is `cells` itself; otherwise `joined` holds the result.
-const Field& join_lenders(Field& joined, const GasDomain& domain, int d, const Field& cells) {
-  if (domain.lenders[d].empty()) return cells;
-  joined = cells;
+// While `visit` runs the hosts among the cells have the value joined with that of their lenders,
+// weighted by open volume. `values` is work space.
+template <class Visit>
+void with_lenders_joined(std::vector<double>& values, Field& cells, const GasDomain& domain, int d,
+                         const Visit& visit) {
+  const std::vector<Lender>& lenders = domain.lenders[d];
   const Field &own = domain.open_share, &joint = domain.joint_share[d];
-  for (const Lender& lender : domain.lenders[d]) {  // a host of several is set to the same again
-    joined[lender.host] = cells[lender.host] * own[lender.host] / joint[lender.host];
+  values.clear();
+  for (const Lender& lender : lenders) {
+    values.push_back(cells[lender.cell]);
+    values.push_back(cells[lender.host]);
   }
-  for (const Lender& lender : domain.lenders[d]) {
-    joined[lender.host] += cells[lender.cell] * own[lender.cell] / joint[lender.host];
+  for (std::size_t n = 0; n < lenders.size(); ++n) {  // a host of several is set to the same again
+    const std::ptrdiff_t host = lenders[n].host;
+    cells[host] = values[2 * n + 1] * own[host] / joint[host];
   }
-  return joined;
+  for (std::size_t n = 0; n < lenders.size(); ++n) {
+    cells[lenders[n].host] += values[2 * n] * own[lenders[n].cell] / joint[lenders[n].host];
+  }
+  visit();
+  for (std::size_t n = 0; n < lenders.size(); ++n) cells[lenders[n].host] = values[2 * n + 1];
 }
 
-void update_void_fraction(FaceMedium& medium, const GasDomain& domain, int d) {
-  const Field& cells = join_lenders(medium.joined[0], domain, d, medium.cell_void_fraction);
+// All faces but the lowest ghosts, which have only one cell.
+IndexBox faces_between_cells(const GasDomain& domain, int d) {
   const Index3& size = domain.size();
   IndexBox box{{-halo, -halo, -halo}, {size[0] + halo, size[1] + halo, size[2] + halo}};
-  box.begin[d] += 1;  // the lowest ghost face has only one cell
-  const Weights w(domain, d);
-  const double* cell = cells.data();
-  double* face = medium.void_fraction[d].data();
-  for_box(box, cells, [=](std::ptrdiff_t n) {
-    const double below = cell[n - w.stride()], above = cell[n];
-    const double sum = w.below(n) + w.above(n);
-    const double mean = (w.below(n) * below + w.above(n) * above) / (sum > 0.0 ? sum : 1.0);
-    face[n] = sum > 0.0 ? mean : 0.5 * (below + above);
+  box.begin[d] += 1;
+  return box;
+}
+
+void set_weights(FaceMedium& medium, const GasDomain& domain, int d) {
+  Field &below = medium.weight_below[d], &above = medium.weight_above[d];
+  below = above = Field(domain.size());
+  const Field &lower = domain.walls.lower_share[d], &upper = domain.walls.upper_share[d];
+  const Field& share = domain.joint_share[d];
+  for_box(faces_between_cells(domain, d), share, [&, s = share.stride(d)](std::ptrdiff_t n) {
+    const double of_lower = upper[n - s] * share[n - s], of_upper = lower[n] * share[n];
+    const double sum = of_lower + of_upper;
+    if (sum > 0.0) {
+      below[n] = of_lower / sum;
+      above[n] = of_upper / sum;
+    }
   });
 }
 
-void update_drag(FaceMedium& medium, const GasDomain& domain, const GrainPhase& grains, int d) {
-  const double* b = join_lenders(medium.joined[0], domain, d, grains.momentum_exchange).data();
-  const double* bv = join_lenders(medium.joined[1], domain, d, grains.exchange_momentum[d]).data();
-  const Weights w(domain, d);
+void update_void_fraction(FaceMedium& medium, const GasDomain& domain, int d) {
+  Field& cells = medium.cell_void_fraction;
+  const std::ptrdiff_t s = cells.stride(d);
+  const double* cell = cells.data();
+  const double* below = medium.weight_below[d].data();
+  const double* above = medium.weight_above[d].data();
+  double* face = medium.void_fraction[d].data();
+  with_lenders_joined(medium.lent[0], cells, domain, d, [&] {
+    for_box(faces_between_cells(domain, d), cells, [=](std::ptrdiff_t n) {
+      const double mean = below[n] * cell[n - s] + above[n] * cell[n];
+      face[n] = below[n] + above[n] > 0.0 ? mean : 0.5 * (cell[n - s] + cell[n]);
+    });
+  });
+}
+
+void update_drag(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains, int d) {
+  Field &cells_b = grains.momentum_exchange, &cells_bv = grains.exchange_momentum[d];
+  const std::ptrdiff_t s = cells_b.stride(d);
+  const double *b = cells_b.data(), *bv = cells_bv.data();
+  const double* below = medium.weight_below[d].data();
+  const double* above = medium.weight_above[d].data();
   double* face_b = medium.momentum_exchange[d].data();
   double* face_bv = medium.exchange_momentum[d].data();
-  for_box(all_faces(domain, d), grains.momentum_exchange, [=](std::ptrdiff_t n) {
-    const double below = w.below(n), above = w.above(n), sum = below + above;
-    const double scale = (sum > 0.0 ? 1.0 : 0.0) / (sum > 0.0 ? sum : 1.0);
-    face_b[n] = scale * (below * b[n - w.stride()] + above * b[n]);
-    face_bv[n] = scale * (below * bv[n - w.stride()] + above * bv[n]);
+  with_lenders_joined(medium.lent[0], cells_b, domain, d, [&] {
+    with_lenders_joined(medium.lent[1], cells_bv, domain, d, [&] {
+      for_box(all_faces(domain, d), cells_b, [=](std::ptrdiff_t n) {
+        face_b[n] = below[n] * b[n - s] + above[n] * b[n];
+        face_bv[n] = below[n] * bv[n - s] + above[n] * bv[n];
+      });
+    });
   });
 }
 
@@ -103,13 +117,18 @@ void set_cell_void_fraction(Field& cells, const GasDomain& domain, const Field& 
 FaceMedium make_face_medium(const GasDomain& domain) {
   FaceMedium medium;
   medium.cell_void_fraction = Field(domain.size(), 1.0);
-  medium.edges = make_edge_void_fraction(domain);
+  find_walls(medium, domain);
   for (int d = 0; d < 3; ++d) {
     medium.void_fraction[d] = Field(domain.size(), 1.0);
     medium.momentum_exchange[d] = Field(domain.size());
     medium.exchange_momentum[d] = Field(domain.size());
   }
   return medium;
+}
+
+void find_walls(FaceMedium& medium, const GasDomain& domain) {
+  medium.edges = make_edge_void_fraction(domain);
+  for (int d = 0; d < 3; ++d) set_weights(medium, domain, d);
 }
 
 void update(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains) {

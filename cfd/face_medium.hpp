@@ -12,15 +12,21 @@ struct GrainPhase;
 // to be read; whoever uses them skips the terms.
 struct FaceMedium {
   bool has_grains = false;
-  Field cell_void_fraction;       // eps, ghosts filled (outside the grid: the value inside)
-  VectorField void_fraction;      // eps_f on faces, also on the first two layers of ghost faces
-  EdgeVoidFraction edges;         // eps on cell edges
-  VectorField momentum_exchange;  // B_f on faces, kg m^-3 s^-1; ghosts are filled with bodies only
+  Field cell_void_fraction;   // eps, ghosts filled (outside the grid: the value inside)
+  VectorField void_fraction;  // eps_f on faces, also on the first two layers of ghost faces
+  EdgeVoidFraction edges;     // eps on cell edges
+  // Weights of the cell below and above a face, sum 1, both 0 where it does not take part.
+  VectorField weight_below, weight_above;
+  VectorField momentum_exchange;  // B_f on owned faces, kg m^-3 s^-1
   VectorField exchange_momentum;  // (B v)_f on owned faces, kg m^-2 s^-2
-  std::array<Field, 2> joined;    // work space: cells' values joined with those of lenders
+  // Work space: values of cells that lend and of their hosts.
+  std::array<std::vector<double>, 2> lent;
 };
 
 FaceMedium make_face_medium(const GasDomain& domain);
+
+// What follows from the walls of the domain; again after they have moved.
+void find_walls(FaceMedium& medium, const GasDomain& domain);
 
 // Share-and-volume-weighted means of the cells' values: the transpose of what sample_at_cells
 // gathers. Faces that do not take part get the mean void fraction of their two cells and no drag.

@@ -29,6 +29,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -108,8 +109,8 @@ struct GasSolver::State {
   Vec3 speeds = Vec3::Zero();  // largest |u| per direction of all ranks, m/s
   Field pressure;
   Field old_void_fraction;  // of the cells at the start of the step
-  VectorField gas_flux;     // eps u on faces, m/s: work space of the convection
   Slope slope, old_slope;
+  std::optional<Vec3> momentum;  // of this rank's gas, while it is what the last step left, N s
   IntervalMeans means;
   double time = 0.0, previous_dt = 0.0;
   double body_clock = 0.0;                      // s, of moving bodies at time = 0
@@ -145,6 +146,7 @@ void GasSolver::State::set_velocity(const std::function<Vec3(const Vec3&)>& func
   set_solid_faces(velocity, domain);
   fill_velocity_ghosts(domain, medium, velocity);
   speeds = largest_speeds(domain, velocity);
+  momentum.reset();
   previous_dt = 0.0;
 }
 
@@ -168,13 +170,14 @@ bool GasSolver::State::move_bodies(double new_time) {
   fill_fresh_cells(pressure, domain, old_open_share);
   follow_walls(took_part);
   fill_velocity_ghosts(domain, medium, velocity);
-  momentum_of_moved_walls += gas_momentum(domain, medium, velocity) - momentum_before;
+  momentum = gas_momentum(domain, medium, velocity);
+  momentum_of_moved_walls += *momentum - momentum_before;
   return true;
 }
 
 // What the parts of the step know of the walls of the domain.
 void GasSolver::State::follow_walls(const VectorField& took_part) {
-  medium.edges = make_edge_void_fraction(domain);
+  cfd::find_walls(medium, domain);
   if (medium.has_grains) update(medium.edges, domain, medium.cell_void_fraction);
   immersed_boundary = ImmersedBoundary(domain);
   loads.find_walls();
@@ -186,13 +189,26 @@ void GasSolver::State::evaluate_slope() {
   if (domain.has_motion) {  // the volumes of faces have changed
     old_slope.convection = volume_integral(domain, old_slope.total) - old_slope.viscous;
   }
-  for (Field& component : slope.total) component.fill(0.0);
-  add_convection(slope.total, domain, medium, velocity, gas_case.numerics.convection, gas_flux);
-  slope.convection = volume_integral(domain, slope.total);
-  add_viscous_stress(slope.total, domain, medium, velocity);
-  slope.viscous = domain.gas.viscosity > 0.0
-                      ? Vec3(volume_integral(domain, slope.total) - slope.convection)
-                      : Vec3(Vec3::Zero());
+  const Convection scheme = gas_case.numerics.convection;
+  slope.convection = slope.viscous = Vec3::Zero();
+  for (int d = 0; d < 3; ++d) {
+    if (!domain.solved[d]) continue;
+    Field& total = slope.total[d];
+    const auto integral = [&, volume = domain.control_volume[d].data(),
+                           value = total.data()](const IndexBox& box) {
+      return sum_box(box, total, [=](std::ptrdiff_t n) { return volume[n] * value[n]; });
+    };
+    for_each_part(all_faces(domain, d), [&](const IndexBox& part) {
+      for_box(part, total, [value = total.data()](std::ptrdiff_t n) { value[n] = 0.0; });
+      add_convection(total, domain, part, medium, velocity, scheme, d);
+      const double convection = integral(part);
+      slope.convection[d] += convection;
+      if (domain.gas.viscosity == 0.0) return;
+      add_viscous_stress(total, domain, part, medium, velocity, d);
+      slope.viscous[d] += integral(part) - convection;
+    });
+    slope.convection[d] += add_convection_on_sides(total, domain, medium, velocity, scheme, d);
+  }
 }
 
 // Steps 1 and 2 on the faces that take part.
@@ -317,6 +333,7 @@ void GasSolver::State::rebuild() {
   update(medium, domain, grains);
   fill_velocity_ghosts(domain, medium, velocity);
   fill_ghosts(domain.decomposition, pressure);
+  momentum.reset();
   projection.restore(pressure);
   if (driving.present()) driving.add_to(projection.pressure_gradient());
   speeds = largest_speeds(domain, velocity);
@@ -343,7 +360,8 @@ StepReport GasSolver::advance(double dt) {
 
   s.evaluate_slope();
   clock.finish(report.times, Pass::slope);
-  const Vec3 momentum_at_start = gas_momentum(domain, s.medium, s.velocity);
+  const Vec3 momentum_at_start =
+      s.momentum ? *s.momentum : gas_momentum(domain, s.medium, s.velocity);
   const Vec3 momentum_before = momentum_at_start - s.momentum_of_moved_walls;
   s.momentum_of_moved_walls = Vec3::Zero();
   update(s.medium, domain, s.grains);
@@ -378,7 +396,8 @@ StepReport GasSolver::advance(double dt) {
   report.largest_speed = s.speeds.maxCoeff();
   report.courant_number = dt * s.speeds.cwiseQuotient(domain.spacing).maxCoeff();
   clock.finish(report.times, Pass::correct);
-  budget.stored = gas_momentum(domain, s.medium, s.velocity) - momentum_before;
+  s.momentum = gas_momentum(domain, s.medium, s.velocity);
+  budget.stored = *s.momentum - momentum_before;
   budget.convection =
       momentum_with_new_void - momentum_before +
       dt * (weights.now * s.slope.convection + weights.before * s.old_slope.convection);
@@ -450,6 +469,7 @@ void GasSolver::visit_state(StateArchive& archive) {
 void GasSolver::accept_void_fraction_as_old() {
   update(state_->medium, state_->domain, state_->grains);
   fill_velocity_ghosts(state_->domain, state_->medium, state_->velocity);
+  state_->momentum.reset();
 }
 
 double GasSolver::largest_stable_step() const {
@@ -458,28 +478,34 @@ double GasSolver::largest_stable_step() const {
 
 void GasSolver::State::sample(VectorField& velocity_at_cells, VectorField& gradient_at_cells,
                               const VectorField& u, const VectorField& gradient) const {
-  for (int d = 0; d < 3; ++d) {
-    velocity_at_cells[d] = gradient_at_cells[d] = Field(domain.size());
-    for_each_cell(domain.size(), [&](int i, int j, int k) {
-      const std::ptrdiff_t n = u[d].index(i, j, k), above = n + u[d].stride(d);
-      const double lower = domain.walls.lower_share[d][n], upper = domain.walls.upper_share[d][n];
-      const bool free = lower + upper > 0.0;
-      velocity_at_cells[d][n] =
-          free ? lower * u[d][n] + upper * u[d][above] : 0.5 * (u[d][n] + u[d][above]);
-      gradient_at_cells[d][n] = lower * gradient[d][n] + upper * gradient[d][above];
-    });
+  IndexBox cells{{0, 0, 0}, domain.size()};
+  for (int d = 0; d < 3 && domain.any_lenders; ++d) {  // hosts of lenders are also first ghosts
+    if (!domain.decomposition.at_boundary(d, 0)) cells.begin[d] -= 1;
+    if (!domain.decomposition.at_boundary(d, 1)) cells.end[d] += 1;
   }
-  fill_ghosts(domain.decomposition, velocity_at_cells);
-  fill_ghosts(domain.decomposition, gradient_at_cells);
-  if (!domain.any_lenders) return;
   for (int d = 0; d < 3; ++d) {
+    for (VectorField* result : {&velocity_at_cells, &gradient_at_cells}) {
+      if ((*result)[d].size() != domain.size()) (*result)[d] = Field(domain.size());
+    }
+    const std::ptrdiff_t s = u[d].stride(d);
+    const double* lower = domain.walls.lower_share[d].data();
+    const double* upper = domain.walls.upper_share[d].data();
+    for_box(cells, u[d], [=, u = u[d].data(), result = velocity_at_cells[d].data()](auto n) {
+      const bool free = lower[n] + upper[n] > 0.0;
+      const double mean = lower[n] * u[n] + upper[n] * u[n + s];
+      result[n] = free ? mean : 0.5 * (u[n] + u[n + s]);
+    });
+    for_box(cells, u[d], [=, g = gradient[d].data(), result = gradient_at_cells[d].data()](auto n) {
+      result[n] = lower[n] * g[n] + upper[n] * g[n + s];
+    });
     for (const Lender& lender : domain.lenders[d]) {
       velocity_at_cells[d][lender.cell] = velocity_at_cells[d][lender.host];
       gradient_at_cells[d][lender.cell] = gradient_at_cells[d][lender.host];
     }
   }
-  fill_ghosts(domain.decomposition, velocity_at_cells);
-  fill_ghosts(domain.decomposition, gradient_at_cells);
+  Field* const results[] = {&velocity_at_cells[0], &velocity_at_cells[1], &velocity_at_cells[2],
+                            &gradient_at_cells[0], &gradient_at_cells[1], &gradient_at_cells[2]};
+  fill_ghosts(domain.decomposition, results);
 }
 
 StepLimits GasSolver::step_limits() const {

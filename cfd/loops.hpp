@@ -1,6 +1,8 @@
 // Loops over the owned cells and faces of a block, x fastest.
 #pragma once
 
+#include <algorithm>
+
 #include "cfd/field.hpp"
 #include "cfd/grid.hpp"
 
@@ -33,41 +35,89 @@ void for_each_row(const IndexBox& box, const Field& like, Visit&& visit) {
   }
 }
 
+// visit(storage index) for every index of one row; as in for_box.
+template <class Visit>
+void for_row(std::ptrdiff_t first, int length, const Visit& visit) {
+#pragma omp simd
+  for (std::ptrdiff_t n = first; n < first + length; ++n) visit(n);
+}
+
 // visit(storage index) for every index of the box. The visits must not depend on each other: rows
 // are vectorized. Lambdas that capture raw pointers by value run fastest.
 template <class Visit>
 void for_box(const IndexBox& box, const Field& like, const Visit& visit) {
-  for_each_row(box, like, [&visit](std::ptrdiff_t first, int length) {
-#pragma omp simd
-    for (std::ptrdiff_t n = first; n < first + length; ++n) visit(n);
-  });
+  for_each_row(box, like,
+               [&visit](std::ptrdiff_t first, int length) { for_row(first, length, visit); });
 }
 
-// Sum of term(storage index) over the box; row sums are vectorized, in an order that depends on the
-// build and the box only. Terms as in for_box.
+// visit(part) for parts of the box that are some rows thick: fields of one part stay in the fastest
+// cache from one sweep over it to the next.
+template <class Visit>
+void for_each_part(const IndexBox& box, const Visit& visit) {
+  constexpr int enough = 500;  // indices
+  const int row = std::max(box.end[0] - box.begin[0], 1);
+  const int rows = std::max(box.end[1] - box.begin[1], 1);
+  const int thick_y = std::min((enough + row - 1) / row, rows);
+  const int thick_z = thick_y < rows ? 1 : std::max(enough / (row * rows), 1);
+  IndexBox part = box;
+  for (int k = box.begin[2]; k < box.end[2]; k += thick_z) {
+    part.begin[2] = k;
+    part.end[2] = std::min(k + thick_z, box.end[2]);
+    for (int j = box.begin[1]; j < box.end[1]; j += thick_y) {
+      part.begin[1] = j;
+      part.end[1] = std::min(j + thick_y, box.end[1]);
+      visit(part);
+    }
+  }
+}
+
+inline IndexBox intersection(const IndexBox& a, const IndexBox& b) {
+  IndexBox common;
+  for (int d = 0; d < 3; ++d) {
+    common.begin[d] = std::max(a.begin[d], b.begin[d]);
+    common.end[d] = std::min(a.end[d], b.end[d]);
+  }
+  return common;
+}
+
+// Sum of term(storage index) over one row, vectorized, in an order that depends on the build and
+// the length only. Terms as in for_box. Several sums of the same fields cost one reading of them
+// when they are taken row by row.
 template <class Term>
-double sum_box(const IndexBox& box, const Field& like, const Term& term) {
+double sum_row(std::ptrdiff_t first, int length, const Term& term) {
   double sum = 0.0;
-  for_each_row(box, like, [&](std::ptrdiff_t first, int length) {
-    double row = 0.0;
-#pragma omp simd reduction(+ : row)
-    for (std::ptrdiff_t n = first; n < first + length; ++n) row += term(n);
-    sum += row;
-  });
+#pragma omp simd reduction(+ : sum)
+  for (std::ptrdiff_t n = first; n < first + length; ++n) sum += term(n);
   return sum;
 }
 
-// Largest term(storage index), at least 0, over the box. Terms as in for_box; none may be NaN.
+// Sum over the box, row by row.
+template <class Term>
+double sum_box(const IndexBox& box, const Field& like, const Term& term) {
+  double sum = 0.0;
+  for_each_row(box, like,
+               [&](std::ptrdiff_t first, int length) { sum += sum_row(first, length, term); });
+  return sum;
+}
+
+// Largest term(storage index), at least 0, over one row. Terms as in for_box; none may be NaN.
+template <class Term>
+double max_row(std::ptrdiff_t first, int length, const Term& term) {
+  double largest = 0.0;
+#pragma omp simd reduction(max : largest)
+  for (std::ptrdiff_t n = first; n < first + length; ++n) {
+    const double value = term(n);
+    largest = value > largest ? value : largest;
+  }
+  return largest;
+}
+
+// The same over the box.
 template <class Term>
 double max_box(const IndexBox& box, const Field& like, const Term& term) {
   double largest = 0.0;
   for_each_row(box, like, [&](std::ptrdiff_t first, int length) {
-    double row = 0.0;
-#pragma omp simd reduction(max : row)
-    for (std::ptrdiff_t n = first; n < first + length; ++n) {
-      const double value = term(n);
-      row = value > row ? value : row;
-    }
+    const double row = max_row(first, length, term);
     largest = row > largest ? row : largest;
   });
   return largest;

@@ -90,26 +90,28 @@ void add_forces(MomentumBudget& budget, const GasDomain& domain, const FaceMediu
   for (int d = 0; d < 3; ++d) {
     const double* volume = domain.control_volume[d].data();
     const double* gradient = pressure_gradient[d].data();
-    const double weight = dt * domain.gas.density * domain.gas.gravity[d];
-    const IndexBox faces = all_faces(domain, d);
-    const auto sum = [&](const auto& term) { return sum_box(faces, velocity[d], term); };
-    const double whole = sum([=](auto n) { return volume[n] * gradient[n]; });
-    if (!medium.has_grains) {
-      budget.gravity[d] += weight * sum([=](auto n) { return volume[n]; });
-      budget.pressure[d] -= dt * whole;
-      continue;
-    }
     const double* eps = medium.void_fraction[d].data();
     const double* u = velocity[d].data();
     const double* b = medium.momentum_exchange[d].data();
     const double* bv = medium.exchange_momentum[d].data();
-    const double of_gas = sum([=](auto n) { return volume[n] * eps[n] * gradient[n]; });
-    budget.pressure[d] -= dt * of_gas;
-    budget.pressure_on_grains[d] -= dt * (whole - of_gas);
-    if (weight != 0.0) {
-      budget.gravity[d] += weight * sum([=](auto n) { return volume[n] * eps[n]; });
-    }
-    budget.drag[d] += dt * sum([=](auto n) { return volume[n] * (bv[n] - b[n] * u[n]); });
+    const bool has_weight = domain.gas.gravity[d] != 0.0;
+    double gas_volume = 0.0, gradient_on_all = 0.0, gradient_on_gas = 0.0, drag = 0.0;
+    for_each_row(all_faces(domain, d), velocity[d], [&](std::ptrdiff_t row, int length) {
+      const auto add = [=](double& sum, const auto& term) { sum += sum_row(row, length, term); };
+      add(gradient_on_all, [=](auto n) { return volume[n] * gradient[n]; });
+      if (!medium.has_grains) {
+        if (has_weight) add(gas_volume, [=](auto n) { return volume[n]; });
+        return;
+      }
+      add(gradient_on_gas, [=](auto n) { return volume[n] * eps[n] * gradient[n]; });
+      if (has_weight) add(gas_volume, [=](auto n) { return volume[n] * eps[n]; });
+      add(drag, [=](auto n) { return volume[n] * (bv[n] - b[n] * u[n]); });
+    });
+    if (!medium.has_grains) gradient_on_gas = gradient_on_all;
+    budget.pressure[d] -= dt * gradient_on_gas;
+    budget.pressure_on_grains[d] -= dt * (gradient_on_all - gradient_on_gas);
+    budget.gravity[d] += dt * domain.gas.density * domain.gas.gravity[d] * gas_volume;
+    budget.drag[d] += dt * drag;
   }
 }
 

@@ -139,38 +139,38 @@ void Projection::set_coefficients_along(int d, const Faces& faces) {
 void Projection::set_right_hand_side(const FaceMedium& medium, const Field* old_void_fraction,
                                      const VectorField& velocity, double dt) {
   double* rhs = system_.right_hand_side.data();
-  if (old_void_fraction) {
-    const double* eps = medium.cell_void_fraction.data();
-    const double* old = old_void_fraction->data();
-    const double* open = domain_.open_share.data();
-    const double scale = domain_.cell_volume() / dt;
-    for_cells(system_.right_hand_side,
-              [=](std::ptrdiff_t n) { rhs[n] = -scale * open[n] * (eps[n] - old[n]); });
-  } else {
-    system_.right_hand_side.fill(0.0);
-  }
-  if (domain_.has_motion) {
-    const double* swept = swept_.data();
-    for_cells(swept_, [=](std::ptrdiff_t n) { rhs[n] += swept[n]; });
-  }
-  const bool judged = regions_.any_singular();
   double* norm = term_norm_.data();
-  if (judged) for_cells(term_norm_, [=](std::ptrdiff_t n) { norm[n] = std::abs(rhs[n]); });
-  for (int d = 0; d < 3; ++d) {
-    with_faces(medium, domain_.gas.density, dt, d, [&](const auto& faces) {
-      const double* open = domain_.walls.open_area[d].data();
-      const double* u = velocity[d].data();
-      const double area = domain_.face_area(d);
-      const std::ptrdiff_t s = velocity[d].stride(d);
-      const auto flux = [=](std::ptrdiff_t n) {
-        return area * open[n] * faces.void_fraction(n) * u[n];
-      };
-      for_cells(term_norm_, [=](std::ptrdiff_t n) { rhs[n] += flux(n) - flux(n + s); });
-      if (!judged) return;
-      for_cells(term_norm_,
+  const double* eps = medium.cell_void_fraction.data();
+  const double* open = domain_.open_share.data();
+  const double* swept = domain_.has_motion ? swept_.data() : nullptr;
+  const bool judged = regions_.any_singular();
+  for_each_row({{0, 0, 0}, domain_.size()}, term_norm_, [&](std::ptrdiff_t row, int length) {
+    if (old_void_fraction) {
+      const double* old = old_void_fraction->data();
+      const double scale = domain_.cell_volume() / dt;
+      for_row(row, length,
+              [=](std::ptrdiff_t n) { rhs[n] = -scale * open[n] * (eps[n] - old[n]); });
+    } else {
+      for_row(row, length, [=](std::ptrdiff_t n) { rhs[n] = 0.0; });
+    }
+    if (swept) for_row(row, length, [=](std::ptrdiff_t n) { rhs[n] += swept[n]; });
+    if (judged) for_row(row, length, [=](std::ptrdiff_t n) { norm[n] = std::abs(rhs[n]); });
+    for (int d = 0; d < 3; ++d) {
+      with_faces(medium, domain_.gas.density, dt, d, [&](const auto& faces) {
+        const double* open_area = domain_.walls.open_area[d].data();
+        const double* u = velocity[d].data();
+        const double area = domain_.face_area(d);
+        const std::ptrdiff_t s = velocity[d].stride(d);
+        const auto flux = [=](std::ptrdiff_t n) {
+          return area * open_area[n] * faces.void_fraction(n) * u[n];
+        };
+        for_row(row, length, [=](std::ptrdiff_t n) { rhs[n] += flux(n) - flux(n + s); });
+        if (!judged) return;
+        for_row(row, length,
                 [=](std::ptrdiff_t n) { norm[n] += std::abs(flux(n)) + std::abs(flux(n + s)); });
-    });
-  }
+      });
+    }
+  });
   for (const std::ptrdiff_t cell : closed_cells_) rhs[cell] = norm[cell] = 0.0;
 }
 
@@ -329,32 +329,36 @@ double Projection::divergence(const FaceMedium& medium, const Field* old_void_fr
                               const VectorField& velocity, double dt) {
   const double* open = domain_.open_share.data();
   const double* eps = medium.cell_void_fraction.data();
+  const double* swept = domain_.has_motion ? swept_.data() : nullptr;
   double* change = divergence_.data();
-  if (old_void_fraction) {
-    const double* old = old_void_fraction->data();
-    for_cells(divergence_, [=](std::ptrdiff_t n) { change[n] = open[n] * (eps[n] - old[n]); });
-  } else {
-    divergence_.fill(0.0);
-  }
-  if (domain_.has_motion) {
-    const double* swept = swept_.data();
-    const double scale = dt / domain_.cell_volume();
-    for_cells(swept_, [=](std::ptrdiff_t n) { change[n] -= scale * swept[n]; });
-  }
-  for (int d = 0; d < 3; ++d) {
-    with_faces(medium, domain_.gas.density, dt, d, [&](const auto& faces) {
-      const double* area = domain_.walls.open_area[d].data();
-      const double* u = velocity[d].data();
-      const double scale = dt / domain_.spacing[d];
-      const std::ptrdiff_t s = velocity[d].stride(d);
-      const auto flux = [=](std::ptrdiff_t n) { return area[n] * faces.void_fraction(n) * u[n]; };
-      for_cells(divergence_,
+  double largest = 0.0;
+  auto closed = closed_cells_.begin();  // in the order of the rows
+  for_each_row({{0, 0, 0}, domain_.size()}, divergence_, [&](std::ptrdiff_t row, int length) {
+    if (old_void_fraction) {
+      const double* old = old_void_fraction->data();
+      for_row(row, length, [=](std::ptrdiff_t n) { change[n] = open[n] * (eps[n] - old[n]); });
+    } else {
+      for_row(row, length, [=](std::ptrdiff_t n) { change[n] = 0.0; });
+    }
+    if (swept) {
+      const double scale = dt / domain_.cell_volume();
+      for_row(row, length, [=](std::ptrdiff_t n) { change[n] -= scale * swept[n]; });
+    }
+    for (int d = 0; d < 3; ++d) {
+      with_faces(medium, domain_.gas.density, dt, d, [&](const auto& faces) {
+        const double* area = domain_.walls.open_area[d].data();
+        const double* u = velocity[d].data();
+        const double scale = dt / domain_.spacing[d];
+        const std::ptrdiff_t s = velocity[d].stride(d);
+        const auto flux = [=](std::ptrdiff_t n) { return area[n] * faces.void_fraction(n) * u[n]; };
+        for_row(row, length,
                 [=](std::ptrdiff_t n) { change[n] += scale * (flux(n + s) - flux(n)); });
-    });
-  }
-  for (const std::ptrdiff_t cell : closed_cells_) change[cell] = 0.0;
-  const double largest = max_cells(divergence_, [=](std::ptrdiff_t n) {
-    return change[n] != 0.0 ? std::abs(change[n]) / (open[n] * eps[n]) : 0.0;
+      });
+    }
+    for (; closed != closed_cells_.end() && *closed < row + length; ++closed) change[*closed] = 0.0;
+    largest = std::max(largest, max_row(row, length, [=](std::ptrdiff_t n) {
+                         return change[n] != 0.0 ? std::abs(change[n]) / (open[n] * eps[n]) : 0.0;
+                       }));
   });
   return max_over_ranks(domain_.decomposition, largest);
 }
