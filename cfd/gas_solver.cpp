@@ -396,14 +396,14 @@ StepReport GasSolver::advance(double dt) {
   report.largest_speed = s.speeds.maxCoeff();
   report.courant_number = dt * s.speeds.cwiseQuotient(domain.spacing).maxCoeff();
   clock.finish(report.times, Pass::correct);
-  s.momentum = gas_momentum(domain, s.medium, s.velocity);
-  budget.stored = *s.momentum - momentum_before;
   budget.convection =
       momentum_with_new_void - momentum_before +
       dt * (weights.now * s.slope.convection + weights.before * s.old_slope.convection);
   budget.viscous = dt * (weights.now * s.slope.viscous + weights.before * s.old_slope.viscous);
   if (domain.walls.has_bodies) s.measure_loads(budget, dt, weights);
-  add_forces(budget, domain, s.medium, s.velocity, s.projection.pressure_gradient(), dt);
+  s.momentum =
+      add_forces(budget, domain, s.medium, s.velocity, s.projection.pressure_gradient(), dt);
+  budget.stored = *s.momentum - momentum_before;
   add_pressure_reactions(budget, domain, s.pressure, s.projection.pressure_gradient(),
                          s.driving.value(), dt);
   sum_over_ranks(domain.decomposition, budget);

@@ -115,10 +115,13 @@ Vec3 ImmersedBoundary::apply(VectorField& velocity, const GasDomain& domain,
 
 void set_solid_faces(VectorField& velocity, const GasDomain& domain) {
   for (int d = 0; d < 3; ++d) {
-    const Field& part = domain.walls.takes_part[d];
-    for_each_in(inner_faces(domain, d), [&](int i, int j, int k) {
-      const std::ptrdiff_t n = part.index(i, j, k);
-      if (part[n] == 0.0) velocity[d][n] = domain.walls.wall_velocity[d][n];
+    const double* part = domain.walls.takes_part[d].data();
+    const double* wall = domain.walls.wall_velocity[d].data();
+    double* u = velocity[d].data();
+    for_each_row(inner_faces(domain, d), velocity[d], [=](std::ptrdiff_t row, int length) {
+      const double solid = sum_row(row, length, [=](auto n) { return part[n] == 0.0 ? 1.0 : 0.0; });
+      if (solid == 0.0) return;
+      for_row(row, length, [=](std::ptrdiff_t n) { u[n] = part[n] == 0.0 ? wall[n] : u[n]; });
     });
   }
 }

@@ -85,8 +85,9 @@ Vec3 volume_integral(const GasDomain& domain, const VectorField& field) {
   return sum;
 }
 
-void add_forces(MomentumBudget& budget, const GasDomain& domain, const FaceMedium& medium,
+Vec3 add_forces(MomentumBudget& budget, const GasDomain& domain, const FaceMedium& medium,
                 const VectorField& velocity, const VectorField& pressure_gradient, double dt) {
+  Vec3 momentum;
   for (int d = 0; d < 3; ++d) {
     const double* volume = domain.control_volume[d].data();
     const double* gradient = pressure_gradient[d].data();
@@ -96,13 +97,16 @@ void add_forces(MomentumBudget& budget, const GasDomain& domain, const FaceMediu
     const double* bv = medium.exchange_momentum[d].data();
     const bool has_weight = domain.gas.gravity[d] != 0.0;
     double gas_volume = 0.0, gradient_on_all = 0.0, gradient_on_gas = 0.0, drag = 0.0;
+    double flow = 0.0;  // sum of V eps u
     for_each_row(all_faces(domain, d), velocity[d], [&](std::ptrdiff_t row, int length) {
       const auto add = [=](double& sum, const auto& term) { sum += sum_row(row, length, term); };
       add(gradient_on_all, [=](auto n) { return volume[n] * gradient[n]; });
       if (!medium.has_grains) {
+        add(flow, [=](auto n) { return volume[n] * u[n]; });
         if (has_weight) add(gas_volume, [=](auto n) { return volume[n]; });
         return;
       }
+      add(flow, [=](auto n) { return volume[n] * eps[n] * u[n]; });
       add(gradient_on_gas, [=](auto n) { return volume[n] * eps[n] * gradient[n]; });
       if (has_weight) add(gas_volume, [=](auto n) { return volume[n] * eps[n]; });
       add(drag, [=](auto n) { return volume[n] * (bv[n] - b[n] * u[n]); });
@@ -112,7 +116,9 @@ void add_forces(MomentumBudget& budget, const GasDomain& domain, const FaceMediu
     budget.pressure_on_grains[d] -= dt * (gradient_on_all - gradient_on_gas);
     budget.gravity[d] += dt * domain.gas.density * domain.gas.gravity[d] * gas_volume;
     budget.drag[d] += dt * drag;
+    momentum[d] = domain.gas.density * flow;
   }
+  return momentum;
 }
 
 double side_force(const GasDomain& domain, const Field& pressure,

@@ -16,8 +16,8 @@ Vec3 gas_momentum(const GasDomain& domain, const FaceMedium& medium, const Vecto
 Vec3 volume_integral(const GasDomain& domain, const VectorField& field);
 
 // Adds gravity, drag and both shares of the pressure gradient over a step of dt with the velocity
-// at its end.
-void add_forces(MomentumBudget& budget, const GasDomain& domain, const FaceMedium& medium,
+// at its end. Returns gas_momentum() with that velocity, a by-product of the sweep.
+Vec3 add_forces(MomentumBudget& budget, const GasDomain& domain, const FaceMedium& medium,
                 const VectorField& velocity, const VectorField& pressure_gradient, double dt);
 
 // Pressure on a side of the grid times open area, N, extrapolated from the cells next to it: the

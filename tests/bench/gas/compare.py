@@ -7,7 +7,8 @@ BUILD_DIRECTORY is configured with -DGASGRAIN_BENCHMARKS=ON. Times are milliseco
 a step with a warm start, set-up of the pressure solver included (`solve`); medians over the steps.
 --cpu gives CPU time of the slowest rank instead: for a machine that has other work. Writes
 gas_step.md, gas_step.json and, with matplotlib, gas_step.png to the output directory (default: the
-working directory). --quick leaves out everything above 51 200 cells.
+working directory). --quick leaves out everything above 51 200 cells and takes
+12 steps instead of 40.
 """
 
 import argparse
@@ -27,12 +28,13 @@ ABSENT = [("all of it", []), ("no bodies", ["--geometry", "box"]), ("no drag", [
 
 
 class Bench:
-    def __init__(self, program, clock):
+    def __init__(self, program, clock, most_steps):
         self.program, self.clock, self.results = str(program), clock, []
+        self.most_steps = most_steps
 
     def run(self, cells, ranks, *more, steps=0):
         count = cells[0] * cells[1] * cells[2]
-        steps = steps or max(5, min(40, 4_000_000 // count))
+        steps = steps or max(5, min(self.most_steps, 4_000_000 // count))
         start = ["mpirun", "--oversubscribe", "-n", str(ranks)]
         environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1",
                        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
@@ -133,7 +135,8 @@ def main():
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("."))
     given = parser.parse_args()
-    bench = Bench((given.build / "bin" / "gas_step_cost").resolve(), "cpu" if given.cpu else "wall")
+    bench = Bench((given.build / "bin" / "gas_step_cost").resolve(), "cpu" if given.cpu else "wall",
+                  most_steps=12 if given.quick else 40)
     limit = 60_000 if given.quick else 10_000_000
     vessel = [cells for count, cells in VESSEL.items() if count <= limit]
     compared = [("tubes, open", cells, []) for cells in vessel if len(vessel) == 1
