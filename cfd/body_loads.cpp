@@ -113,7 +113,7 @@ void BodyLoads::find_walls() {
   });
 }
 
-void BodyLoads::start(const ImmersedBoundary& immersed_boundary) {
+void BodyLoads::clear() {
   loads_.assign(loads_.size(), {});
   stress_impulse_ = Vec3::Zero();
   std::vector<Vec3>& reference = reference_;
@@ -121,11 +121,6 @@ void BodyLoads::start(const ImmersedBoundary& immersed_boundary) {
   for (const Body& body : domain_.bodies) {
     reference.push_back(torque_point_at(body, domain_.walls_time));
   }
-  immersed_boundary.for_each_impulse([&](int d, int body, const Vec3& position, double impulse) {
-    const Vec3 received = -impulse * Vec3::Unit(d);
-    loads_[body].friction += received;
-    loads_[body].friction_torque += (position - reference[body]).cross(received);
-  });
 }
 
 void BodyLoads::add_stress(const VectorField& slope, double weight) {

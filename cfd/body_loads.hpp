@@ -16,8 +16,16 @@ class BodyLoads {
   // Looks for the cells and faces that bodies act on; again after the walls of the domain changed.
   void find_walls();
 
-  // Starts a step with what the immersed boundary has just done.
-  void start(const ImmersedBoundary& immersed_boundary);
+  // Starts a step with what `boundary`, an ImmersedBoundary or a VolumeForcing, has just done.
+  template <class BodyBoundary>
+  void start(const BodyBoundary& boundary) {
+    clear();
+    boundary.for_each_impulse([&](int d, int body, const Vec3& position, double impulse) {
+      const Vec3 received = -impulse * Vec3::Unit(d);
+      loads_[body].friction += received;
+      loads_[body].friction_torque += (position - reference_[body]).cross(received);
+    });
+  }
   // Adds what the stress of the gas does to the volume of the bodies: `weight` * slope on faces,
   // N/m^3 times s. The slope must be that of all faces, also of those that do not take part.
   void add_stress(const VectorField& slope, double weight);
@@ -33,6 +41,8 @@ class BodyLoads {
   const Vec3& stress_impulse() const { return stress_impulse_; }
 
  private:
+  void clear();
+
   // A cell whose control volumes a body changes, or a face where it does.
   struct Cell {
     Index3 local;

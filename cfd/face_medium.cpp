@@ -118,10 +118,16 @@ FaceMedium make_face_medium(const GasDomain& domain) {
   FaceMedium medium;
   medium.cell_void_fraction = Field(domain.size(), 1.0);
   find_walls(medium, domain);
+  medium.has_scaling = domain.walls.spans_bodies;
   for (int d = 0; d < 3; ++d) {
     medium.void_fraction[d] = Field(domain.size(), 1.0);
     medium.momentum_exchange[d] = Field(domain.size());
     medium.exchange_momentum[d] = Field(domain.size());
+    if (!medium.has_scaling) continue;
+    Field& scaling = medium.density_scaling[d] = Field(domain.size());
+    for (std::size_t n = 0; n < scaling.count(); ++n) {
+      scaling[n] = 1.0 + (domain.density_scaling - 1.0) * domain.walls.solid_share[d][n];
+    }
   }
   return medium;
 }

@@ -19,6 +19,8 @@ struct FaceMedium {
   VectorField weight_below, weight_above;
   VectorField momentum_exchange;  // B_f on owned faces, kg m^-3 s^-1
   VectorField exchange_momentum;  // (B v)_f on owned faces, kg m^-2 s^-2
+  VectorField density_scaling;  // 1 + (gamma - 1) alpha_f on faces; only when the walls span bodies
+  bool has_scaling = false;
   // Work space: values of cells that lend and of their hosts.
   std::array<std::vector<double>, 2> lent;
 };
@@ -32,13 +34,15 @@ void find_walls(FaceMedium& medium, const GasDomain& domain);
 // gathers. Faces that do not take part get the mean void fraction of their two cells and no drag.
 void update(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains);
 
-// dt / (rho (1 + K)) = dt / (rho + dt B / eps): the velocity that a unit pressure gradient removes in
-// a step of dt [s], m^3 s/kg.
+// dt / (rho (1 + K)) = dt / (rho + dt B / eps): the velocity that a unit pressure gradient removes
+// in a step of dt [s], m^3 s/kg; less by the density scaling of volume forcing.
 inline double mobility(const FaceMedium& medium, double density, double dt, int direction,
                        std::ptrdiff_t n) {
-  if (!medium.has_grains) return dt / density;
-  return dt /
-         (density + dt * medium.momentum_exchange[direction][n] / medium.void_fraction[direction][n]);
+  const double inertia =
+      medium.has_scaling ? density * medium.density_scaling[direction][n] : density;
+  if (!medium.has_grains) return dt / inertia;
+  return dt / (inertia +
+               dt * medium.momentum_exchange[direction][n] / medium.void_fraction[direction][n]);
 }
 
 // Void fraction of a face: 1 without grains.

@@ -64,10 +64,22 @@ PressureFallback read_pressure_fallback(const ConfigTable& table) {
                                 : PressureFallback::hypre_boomeramg;
 }
 
+void read_body_method(Numerics& numerics, const ConfigTable& table) {
+  const bool forcing = table.choice_or("immersed_boundary", "interpolation",
+                                       {"interpolation", "volume-forcing"}) == "volume-forcing";
+  numerics.immersed_boundary = forcing ? BodyMethod::volume_forcing : BodyMethod::interpolation;
+  if (!forcing && table.has("density_scaling")) {
+    table.fail("density_scaling",
+               "belongs to immersed_boundary = \"volume-forcing\"; remove it or set that");
+  }
+  numerics.density_scaling =
+      table.number_or("density_scaling", numerics.density_scaling, {.lower = 1.0, .upper = 1e12});
+}
+
 Numerics read_numerics(const ConfigTable& table) {
   expect_only(table, {"convection", "pressure_solver", "pressure_fallback", "pressure_tolerance",
                       "pressure_iterations", "reference_pressure", "time_scheme", "courant_number",
-                      "largest_step", "ranks"});
+                      "largest_step", "ranks", "immersed_boundary", "density_scaling"});
   Numerics n;
   n.convection = read_convection(table);
   n.pressure_solver = read_pressure_solver(table);
@@ -83,6 +95,7 @@ Numerics read_numerics(const ConfigTable& table) {
   n.courant_number = table.number_or("courant_number", largest,
                                      {.lower = 0.0, .upper = largest, .lower_open = true});
   n.largest_step = table.number_or("largest_step", n.largest_step, Range::positive());
+  read_body_method(n, table);
   if (table.has("ranks")) n.ranks = table.integers3("ranks", {.lower = 1, .upper = 1e6});
   return n;
 }

@@ -24,6 +24,8 @@ enum class Convection { none, central, van_leer };
 
 enum class TimeScheme { ab2, rk2 };
 
+enum class BodyMethod { interpolation, volume_forcing };
+
 struct Numerics {
   Convection convection = Convection::van_leer;
   PressureMethod pressure_solver = PressureMethod::multigrid;
@@ -32,7 +34,9 @@ struct Numerics {
   int pressure_iterations = 200;     // largest number of CG iterations before the fallback
   double reference_pressure = 0.0;   // Pa, mean of a region without outlet
   TimeScheme time_scheme = TimeScheme::ab2;
-  double courant_number = 0.25;                                   // largest |u| dt / dx
+  BodyMethod immersed_boundary = BodyMethod::interpolation;
+  double density_scaling = 1000.0;  // gamma, with volume forcing: density inside bodies over rho
+  double courant_number = 0.25;     // largest |u| dt / dx
   double largest_step = std::numeric_limits<double>::infinity();  // s
   Index3 ranks{0, 0, 0};  // blocks per direction; 0 = choose
 };

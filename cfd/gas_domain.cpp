@@ -4,6 +4,7 @@
 
 #include "cfd/halo_exchange.hpp"
 #include "cfd/moving_walls.hpp"
+#include "coupling/shared/error.hpp"
 
 namespace gasgrain::cfd {
 
@@ -46,6 +47,30 @@ std::vector<Lender> lenders_of(const GasDomain& domain, int d) {
   return lenders;
 }
 
+void check_volume_forcing(const GasCase& gas_case) {
+  const std::string method = "numerics.immersed_boundary = \"volume-forcing\"";
+  for (const Body& body : gas_case.bodies) {
+    if (!body.acts_on_gas || body.motion.is_at_rest()) continue;
+    throw UserError(method + " is only for bodies at rest, but body '" + body.name +
+                    "' moves; use \"interpolation\"");
+  }
+  for (const auto& sides : gas_case.boundaries) {
+    if (!sides[0].mean_velocity) continue;
+    throw UserError(method +
+                    " needs a given pressure_gradient where a mean_velocity of the flow is given; "
+                    "state that or use \"interpolation\"");
+  }
+}
+
+WallGeometry walls_of(const GasCase& gas_case, const Decomposition& decomposition,
+                      const SideConditions& sides) {
+  if (gas_case.numerics.immersed_boundary == BodyMethod::interpolation) {
+    return make_wall_geometry(decomposition, sides, gas_case.bodies);
+  }
+  check_volume_forcing(gas_case);
+  return make_spanned_wall_geometry(decomposition, sides, gas_case.bodies);
+}
+
 }  // namespace
 
 GasDomain::GasDomain(const GasCase& gas_case, MPI_Comm communicator)
@@ -54,7 +79,8 @@ GasDomain::GasDomain(const GasCase& gas_case, MPI_Comm communicator)
       sides(gas_case.grid, gas_case.boundaries, gas_case.patches),
       bodies(gas_case.bodies),
       gas(gas_case.gas),
-      walls(make_wall_geometry(decomposition, sides, bodies)),
+      walls(walls_of(gas_case, decomposition, sides)),
+      density_scaling(gas_case.numerics.density_scaling),
       spacing(gas_case.grid.spacing()),
       open_share(size()) {
   derive();

@@ -34,6 +34,7 @@ struct GasDomain {
   WallGeometry walls;
   double walls_time = 0.0;        // s: the bodies stand where they are then
   bool has_motion = false;        // some body that acts on the gas moves at some time
+  double density_scaling;         // gamma of volume forcing
   VectorField resting_open_area;  // with motion: a of the resting bodies alone
   Field swept;                    // with motion: see set_swept_volume(), m^3/s
   Vec3 spacing;                   // m

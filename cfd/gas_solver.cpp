@@ -11,6 +11,7 @@
 //                              + eps rho g + B v
 //   2  u* = u^ /(1 + K)
 //   3  u* near bodies blended with their no-slip profile, u* = u_wall inside them
+//      (numerics.immersed_boundary = "volume-forcing" instead: volume_forcing.cpp)
 //   4  div( a c grad p ) = (1 - alpha)(eps_new - eps_old)/dt - swept + div(a eps u*),
 //                          c = eps dt/(rho (1 + K))
 //   5  u = u* - (c/eps) grad p
@@ -50,6 +51,7 @@
 #include "cfd/solve_failure.hpp"
 #include "cfd/time_step.hpp"
 #include "cfd/viscous_stress.hpp"
+#include "cfd/volume_forcing.hpp"
 #include "coupling/shared/error.hpp"
 
 namespace gasgrain::cfd {
@@ -101,6 +103,7 @@ struct GasSolver::State {
   FaceMedium medium;
   GrainPhase grains;
   ImmersedBoundary immersed_boundary;
+  VolumeForcing volume_forcing;  // takes its place when the walls span bodies
   BodyLoads loads;
   Projection projection;
   DrivingGradient driving;
@@ -123,6 +126,7 @@ GasSolver::State::State(const GasCase& given, MPI_Comm communicator)
       medium(make_face_medium(domain)),
       grains(no_grains(domain.size())),
       immersed_boundary(domain),
+      volume_forcing(domain),
       loads(domain),
       projection(domain, given.numerics),
       driving(domain),
@@ -248,7 +252,9 @@ void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double d
   set_solid_faces(velocity, domain);
   fill_velocity_ghosts(domain, medium, velocity);
   if (domain.walls.has_bodies) {
-    report.momentum.body = immersed_boundary.apply(velocity, domain, medium, dt);
+    report.momentum.body = domain.walls.spans_bodies
+                               ? volume_forcing.apply(velocity, domain, medium, dt)
+                               : immersed_boundary.apply(velocity, domain, medium, dt);
     fill_velocity_ghosts(domain, medium, velocity);
   }
   if (driving.present()) {
@@ -264,6 +270,10 @@ void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double d
   report.pressure = projection.solve(pressure);
   clock.finish(report.times, Pass::solve);
   projection.correct(velocity, pressure, medium, dt);
+  if (domain.walls.spans_bodies) {
+    report.momentum.body +=
+        volume_forcing.add_pressure(projection.pressure_gradient(), domain, medium, dt);
+  }
   if (driving.present()) driving.add_to(projection.pressure_gradient());
   fill_velocity_ghosts(domain, medium, velocity);
 }
@@ -271,7 +281,11 @@ void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double d
 // Adds this rank's share of body_stress to the budget.
 void GasSolver::State::measure_loads(MomentumBudget& budget, double dt,
                                      const AdamsBashforth& weights) {
-  loads.start(immersed_boundary);
+  if (domain.walls.spans_bodies) {
+    loads.start(volume_forcing);
+  } else {
+    loads.start(immersed_boundary);
+  }
   loads.add_stress(slope.total, dt * weights.now);
   loads.add_stress(old_slope.total, dt * weights.before);
   budget.body_stress = -loads.stress_impulse();

@@ -43,7 +43,7 @@ Vec3 outward_normal(const GasDomain& domain, int d, std::ptrdiff_t n) {
 }  // namespace
 
 ImmersedBoundary::ImmersedBoundary(const GasDomain& domain) : varies_(domain.varies) {
-  if (!domain.walls.has_bodies) return;
+  if (!domain.walls.has_bodies || domain.walls.spans_bodies) return;
   const double dx = smallest_spacing(domain);
   probe_length_ = probe_cells * dx;
   for (int d = 0; d < 3; ++d) {

@@ -45,14 +45,29 @@ struct WithoutGrains {
   double mobility(std::ptrdiff_t) const { return dt / density; }
 };
 
+// The same with volume forcing, denser inside bodies: 1 becomes s (volume_forcing.cpp).
+struct ScaledWithGrains : WithGrains {
+  const double* scale;
+  double mobility(std::ptrdiff_t n) const { return dt / (density * scale[n] + dt * b[n] / eps[n]); }
+};
+
+struct ScaledWithoutGrains : WithoutGrains {
+  const double* scale;
+  double mobility(std::ptrdiff_t n) const { return dt / (density * scale[n]); }
+};
+
 // Calls visit with what the faces of a direction are filled with.
 template <class Visit>
 void with_faces(const FaceMedium& medium, double density, double dt, int d, const Visit& visit) {
-  if (medium.has_grains) {
-    visit(WithGrains{medium.void_fraction[d].data(), medium.momentum_exchange[d].data(), density,
-                     dt});
+  const WithGrains grains{medium.void_fraction[d].data(), medium.momentum_exchange[d].data(),
+                          density, dt};
+  const WithoutGrains gas{density, dt};
+  const double* scale = medium.density_scaling[d].data();
+  if (medium.has_scaling) {
+    medium.has_grains ? visit(ScaledWithGrains{grains, scale})
+                      : visit(ScaledWithoutGrains{gas, scale});
   } else {
-    visit(WithoutGrains{density, dt});
+    medium.has_grains ? visit(grains) : visit(gas);
   }
 }
 
@@ -356,6 +371,12 @@ double Projection::divergence(const FaceMedium& medium, const Field* old_void_fr
       });
     }
     for (; closed != closed_cells_.end() && *closed < row + length; ++closed) change[*closed] = 0.0;
+    if (domain_.walls.spans_bodies) {  // gas fills the solid part of a cell too
+      largest = std::max(largest, max_row(row, length, [=](std::ptrdiff_t n) {
+                           return std::abs(change[n]) / eps[n];
+                         }));
+      return;
+    }
     largest = std::max(largest, max_row(row, length, [=](std::ptrdiff_t n) {
                          return change[n] != 0.0 ? std::abs(change[n]) / (open[n] * eps[n]) : 0.0;
                        }));

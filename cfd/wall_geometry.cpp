@@ -56,6 +56,21 @@ class GeometryBuilder {
     return std::move(walls_);
   }
 
+  WallGeometry build_spanned() {
+    walls_.spans_bodies = walls_.has_bodies;
+    allocate();
+    sample_cells();
+    for (int d = 0; d < 3; ++d) sample_faces(d);
+    set_wall_velocities(walls_, decomposition_, all_bodies_, time_);
+    close_faces_of_solid_cells();
+    if (walls_.spans_bodies) {
+      for (int d = 0; d < 3; ++d) span_bodies(d);
+    }
+    share_faces();
+    fill_all_ghosts();
+    return std::move(walls_);
+  }
+
  private:
   void allocate();
   void check_bodies_reach_into_grid() const;
@@ -64,6 +79,7 @@ class GeometryBuilder {
   void sample_faces(int d);
   void close_faces_of_solid_cells();
   void solidify_unresolved_cells();
+  void span_bodies(int d);
   void share_faces();
   void fill_all_ghosts();
   void choose_hosts();
@@ -247,6 +263,22 @@ void GeometryBuilder::solidify_unresolved_cells() {
   }
 }
 
+void GeometryBuilder::span_bodies(int d) {
+  Field& solid = walls_.solid_share[d];
+  solid = Field(size_);
+  for_each_near_bodies(owned_faces(decomposition_, d), [&](int i, int j, int k) {
+    const Vec3 centre = cell_centre(i, j, k) - half_cell_[d] * Vec3::Unit(d);
+    const double open = open_fraction(*solid_, centre, half_cell_);
+    solid(i, j, k) = open < sliver ? 1.0 : open > 1 - sliver ? 0.0 : 1.0 - open;
+  });
+  fill_ghosts(decomposition_, solid);
+  for_each_face(decomposition_, d, [&](int i, int j, int k) {
+    if (side_of_face(d, Index3{i, j, k}[d]) >= 0) return;
+    walls_.open_area[d](i, j, k) = walls_.takes_part[d](i, j, k) = 1.0;
+  });
+  fill_ghosts(decomposition_, walls_.takes_part[d]);
+}
+
 void GeometryBuilder::share_faces() {
   for (int d = 0; d < 3; ++d) {
     const Field& part = walls_.takes_part[d];
@@ -299,6 +331,14 @@ WallGeometry make_wall_geometry(const Decomposition& decomposition, const SideCo
   GeometryBuilder builder(decomposition, sides, bodies, time);
   builder.check();
   return builder.build();
+}
+
+WallGeometry make_spanned_wall_geometry(const Decomposition& decomposition,
+                                        const SideConditions& sides,
+                                        const std::vector<Body>& bodies) {
+  GeometryBuilder builder(decomposition, sides, bodies, 0.0);
+  builder.check();
+  return builder.build_spanned();
 }
 
 WallGeometry move_wall_geometry(const Decomposition& decomposition, const SideConditions& sides,

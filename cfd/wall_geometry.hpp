@@ -15,14 +15,21 @@ namespace gasgrain::cfd {
 // open.
 struct WallGeometry {
   bool has_bodies = false;  // false: nothing but the sides of the grid
-  Field wall_fraction;      // alpha, cells: share of the cell's volume inside a body, in [0, 1]
-  VectorField open_area;    // a, faces: open share of the face's area, in [0, 1]; 0 on closed faces
-  VectorField distance;     // phi at face centres, m; > 0 in the gas; the grid's diagonal instead
-                            // further than two cells from bodies
+  // Bodies that volume forcing imposes: inside the grid a = 1 and all faces take part, in bodies
+  // too.
+  bool spans_bodies = false;
+  Field wall_fraction;    // alpha, cells: share of the cell's volume inside a body, in [0, 1]
+  VectorField open_area;  // a, faces: open share of the face's area, in [0, 1]; 0 on closed faces
+  VectorField distance;   // phi at face centres, m; > 0 in the gas; the grid's diagonal instead
+                          // further than two cells from bodies
   std::array<VectorField, 3> normal;  // grad phi at the face centres of direction [d]
   VectorField
       wall_velocity;  // m/s, component d of the nearest body's surface velocity at faces of d
   VectorField nearest_body;  // faces: index in the list of bodies, -1 far from them
+
+  // Faces, only when spans_bodies: share of bodies in the volume of the face, half a cell to either
+  // side, in [0, 1].
+  VectorField solid_share;
 
   // Faces: 1 where gas moves freely (open, centre not inside a body, flux not prescribed), else 0.
   VectorField takes_part;
@@ -51,6 +58,12 @@ inline std::ptrdiff_t host_offset(const Field& field, double code) {
 // grid (it acts on the gas and is nowhere solid in it) or leaves no open cell.
 WallGeometry make_wall_geometry(const Decomposition& decomposition, const SideConditions& sides,
                                 const std::vector<Body>& bodies, double time = 0.0);
+
+// The same for volume forcing, of bodies that never move: the gas continues inside them. On the
+// sides of the grid they close faces as above.
+WallGeometry make_spanned_wall_geometry(const Decomposition& decomposition,
+                                        const SideConditions& sides,
+                                        const std::vector<Body>& bodies);
 
 // The same for bodies that were checked before and have moved.
 WallGeometry move_wall_geometry(const Decomposition& decomposition, const SideConditions& sides,

@@ -53,6 +53,11 @@ GasCoupling::GasCoupling(const cfd::GasCase& gas_case, const CouplingOptions& op
       deposition_(gas_.decomposition(), gas_.walls()),
       transfer_(gas_.decomposition()),
       void_fraction_(gas_.decomposition().block().size, 1.0) {
+  if (gas_.walls().spans_bodies) {
+    throw UserError(
+        "numerics.immersed_boundary = \"volume-forcing\" is for gasgrain-gas alone: inside its "
+        "bodies gas moves where grains cannot be; use \"interpolation\"");
+  }
   for (int d = 0; d < 3; ++d) {
     velocity_[d] = cfd::Field(gas_.decomposition().block().size);
     pressure_gradient_[d] = cfd::Field(gas_.decomposition().block().size);

@@ -93,6 +93,19 @@ TEST(GasCase, values_out_of_range_are_errors) {
   EXPECT_NE(error_of(with("pressure_tolerance = 1e-8", "pressure_tolerance = 0")), "");
 }
 
+TEST(GasCase, density_scaling_belongs_to_volume_forcing) {
+  const std::string forcing = "[numerics]\nimmersed_boundary = \"volume-forcing\"\n";
+  const Numerics n = read(with("[numerics]\n", forcing + "density_scaling = 500\n")).numerics;
+  EXPECT_EQ(n.immersed_boundary, BodyMethod::volume_forcing);
+  EXPECT_EQ(n.density_scaling, 500.0);
+  EXPECT_EQ(read(with("[numerics]\n", forcing)).numerics.density_scaling, 1000.0);
+  EXPECT_EQ(read(complete).numerics.immersed_boundary, BodyMethod::interpolation);
+  EXPECT_NE(error_of(with("[numerics]\n", forcing + "density_scaling = 0.5\n")), "");
+  EXPECT_NE(
+      error_of(with("[numerics]\n", "[numerics]\ndensity_scaling = 500\n")).find("volume-forcing"),
+      std::string::npos);
+}
+
 TEST(GasCase, boundaries_that_cannot_be_are_errors) {
   EXPECT_NE(error_of(with("y_lower = {type = \"periodic\"}", "y_lower = {type = \"slip\"}")), "");
   EXPECT_NE(error_of(with("[0, 1, 0]", "[1, 0, 0]")), "");  // wall moves through itself

@@ -55,12 +55,15 @@ Offsets scattered(int n) {
 }
 
 // The channel between two plane bodies about `cells` cells apart, both off the grid lines. Starts
-// from the exact profile and runs until 99 % of its change to the discrete one is done.
-double body_wall_error(int cells, const Offsets& offsets) {
+// from the exact profile and runs until 99 % of its change to the discrete one is done. `factor`:
+// of the largest stable step.
+double body_wall_error(int cells, const Offsets& offsets,
+                       BodyMethod method = BodyMethod::interpolation, double factor = 1.0) {
   const double h = 1.0 / cells, lower = (2.0 + offsets.lower) * h;
   const double height = 1.0 + (offsets.upper - offsets.lower) * h;
   GasCase c = box_case(Vec3(h, h, 1.0 + 5.0 * h), {1, 1, cells + 5});
   c.gas.gravity = Vec3(1, 0, 0);
+  c.numerics.immersed_boundary = method;
   set_sides(c, 0, BoundaryType::periodic);
   set_sides(c, 1, BoundaryType::slip);
   c.bodies = bodies("[[body]]\nname='lower'\nplane={point=[0,0," + std::to_string(lower) +
@@ -71,7 +74,7 @@ double body_wall_error(int cells, const Offsets& offsets) {
     const double z = x[2] - lower;
     return Vec3(std::max(0.5 * z * (height - z), 0.0), 0, 0);
   });
-  run_until(solver, 0.5);
+  run_until(solver, 0.5, factor);
   double flow = 0.0;  // integral of the velocity over the faces
   for_each_cell(solver.pressure().size(),
                 [&](int i, int j, int k) { flow += h * solver.velocity()[0](i, j, k); });
@@ -83,10 +86,11 @@ struct ErrorOverOffsets {
   double mean = 0.0, worst = 0.0;
 };
 
-ErrorOverOffsets body_wall_errors(int cells, int offsets) {
+ErrorOverOffsets body_wall_errors(int cells, int offsets,
+                                  BodyMethod method = BodyMethod::interpolation) {
   ErrorOverOffsets result;
   for (int n = 0; n < offsets; ++n) {
-    const double error = std::abs(body_wall_error(cells, scattered(n)));
+    const double error = std::abs(body_wall_error(cells, scattered(n), method));
     result.mean += error / offsets;
     result.worst = std::max(result.worst, error);
   }
@@ -106,6 +110,31 @@ TEST(Poiseuille, body_walls_off_the_grid_lines_are_second_order) {
                e32 = body_wall_errors(32, 8).mean;
   report.check("order of the mean error", "8; 16", observed_order(e8, e16));
   report.check("order of the mean error", "16; 32", observed_order(e16, e32));
+}
+
+// Largest change of the flow rate among four offsets when the step is a quarter of the stable one.
+double effect_of_the_step(BodyMethod method) {
+  double largest = 0.0;
+  for (int n = 0; n < 4; ++n) {
+    const double change = body_wall_error(16, scattered(n), method, 0.25) -
+                          body_wall_error(16, scattered(n), method, 1.0);
+    largest = std::max(largest, std::abs(change));
+  }
+  return largest;
+}
+
+TEST(Poiseuille, volume_forcing_is_of_first_order_and_depends_on_the_step) {
+  Report report("volume_forcing_channel",
+                "channel between bodies off the grid lines, volume forcing for comparison");
+  const auto error = [](int cells) {
+    return body_wall_errors(cells, 8, BodyMethod::volume_forcing);
+  };
+  const ErrorOverOffsets e8 = error(8), e16 = error(16), e32 = error(32);
+  report.check("worst error of the flow rate", "16", e16.worst);
+  report.check("order of the mean error", "8; 32", observed_order(e8.mean, e32.mean, 4.0));
+  report.check("change of the flow rate by a quarter of the step", "16",
+               effect_of_the_step(BodyMethod::volume_forcing));
+  report.check("the same with interpolation", "16", effect_of_the_step(BodyMethod::interpolation));
 }
 
 struct Vortices {
