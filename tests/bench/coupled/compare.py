@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Cost of a whole coupled run against stock LIGGGHTS computing the grains alone.
+
+    tests/bench/coupled/compare.py BUILD_DIRECTORY BED.csv[.gz] [--ranks 1] [--steps 1000] ...
+
+The scene in which peers were measured (docs/performance.md): a settled bed of 40 000 grains of 0.5 mm
+in a box of 50 x 10 x 200 mm, 51 200 cells, slip walls, gas at 0.2 m/s from below, one gas step per
+100 DEM steps of 1e-6 s. Programs: `stock` is liggghts with Hertz contacts and no gas, `coupled` is
+gasgrain with `model cgm` of l = 1 and the gas. Medians of wall seconds per 1000 DEM steps, measured
+alternately.
+"""
+
+import argparse
+import pathlib
+import shutil
+import statistics
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "dem"))
+import compare as dem  # noqa: E402  (the bench of the grains alone: bed, walls, start of programs)
+
+GAS = """
+[grid]
+lower = [0, 0, 0]
+upper = [0.05, 0.01, 0.2]
+cells = [40, 8, 160]
+[gas]
+density = 1.2
+viscosity = 1.8e-5
+gravity = [0, 0, -9.81]
+[boundary]
+x_lower = {type = "slip"}
+x_upper = {type = "slip"}
+y_lower = {type = "slip"}
+y_upper = {type = "slip"}
+z_lower = {type = "inlet", superficial_velocity = 0.2}
+z_upper = {type = "outlet", pressure = 0}
+[coupling]
+exchange_interval = 1e-4
+"""
+
+
+def script(program, given):
+    stock = program == "stock"
+    styles = dem.contact_styles("stock" if stock else "fused", 1, "hertz")
+    gas = "" if stock else "fix gas all couple/gas case case.toml\n"
+    return f"""units si
+atom_style granular
+atom_modify map array
+boundary f f f
+newton off
+communicate single vel yes
+processors {given.ranks} 1 1
+read_data grains.data
+neighbor {given.skin} bin
+neigh_modify delay 0 contact_distance_factor 1.01
+{styles}timestep 1e-6
+fix gravity all gravity 9.81 vector 0 0 -1
+{gas}fix integrate all nve/sphere
+thermo_style custom step atoms ke
+thermo 100000
+thermo_modify norm no lost error
+run 200
+run {given.steps}
+"""
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("bed", type=pathlib.Path)
+    parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--steps", type=int, default=1000)
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--skin", type=float, default=5e-5)
+    given = parser.parse_args()
+    executable = {"stock": shutil.which("liggghts") or "liggghts",
+                  "coupled": str((given.build / "bin" / "gasgrain").resolve())}
+    start = ["mpirun", "--oversubscribe", "-n", str(given.ranks)] if given.ranks > 1 else []
+    bed = dem.read_bed(given.bed)
+    samples = {"stock": [], "coupled": []}
+    with tempfile.TemporaryDirectory(prefix="gasgrain-bench-") as name:
+        directory = pathlib.Path(name)
+        (directory / "grains.data").write_text(dem.data_file(bed, 1, "C"))
+        (directory / "case.toml").write_text(
+            GAS + dem.case_file(1).replace("\nplane", '\nacts_on = ["grains"]\nplane'))
+        for _ in range(given.repeats):
+            for program in samples:
+                seconds = dem.seconds([*start, executable[program]], directory,
+                                      script(program, given))
+                samples[program].append(seconds * 1000 / given.steps)
+    cost = {program: statistics.median(values) for program, values in samples.items()}
+    print(f"{len(bed)} grains, {given.ranks} rank(s), seconds per 1000 DEM steps")
+    for program, value in cost.items():
+        spread = max(samples[program]) - min(samples[program])
+        print(f"  {program:8} {value:8.3f}   (spread {spread:.3f})")
+    print(f"  coupled / stock grains alone: {cost['coupled'] / cost['stock']:.3f} (target 0.29)")
+
+
+if __name__ == "__main__":
+    main()
