@@ -1,9 +1,8 @@
-// Bed height and pressure drop along gravity.
+// The bed in layers along gravity, and the pressure drop.
 #pragma once
 
-#include <vector>
-
 #include "cfd/gas_solver.hpp"
+#include "coupling/bed_layers.hpp"
 
 namespace gasgrain::coupling {
 
@@ -21,29 +20,30 @@ Vertical vertical_of(const Vec3& gravity);
 
 class BedMonitor {
  public:
-  // Keeps a reference to `gas`. `open_fraction` as in Deposition. Collective.
+  // The void fraction of the bed's surface, as the iso-surface of the paper's fig 3b.
+  static constexpr double surface_void_fraction = 0.8;
+
+  // Keeps references to `gas` and to `open_fraction`, as in Deposition, which may change.
   BedMonitor(const cfd::GasSolver& gas, const cfd::Field& open_fraction, const Vertical& vertical);
 
-  // Highest level, in m above the lower end of the grid, at which the void fraction averaged over
-  // the open part of horizontal layers crosses 0.8, linearly between the layers' centres; 0 for an
-  // empty grid. Collective.
-  double height(const cfd::Field& void_fraction) const;
+  // Takes the layers anew; the queries below are about them. Collective.
+  void observe(const cfd::Field& void_fraction);
+
+  const BedLayers& layers() const { return layers_; }
+  // level_of_void_fraction() of the surface, m.
+  double height() const { return level_of_void_fraction(layers_, surface_void_fraction); }
   // Mean pressure at the lower side minus that at the upper side, Pa. Collective.
   double pressure_drop() const;
 
   const Vertical& vertical() const { return vertical_; }
   double cross_section() const { return cross_section_; }  // of the whole grid, m^2
-  // Volume that the bodies leave open below `height`, m^3.
-  double open_volume_below(double height) const;
 
  private:
-  std::vector<double> layer_sums(const cfd::Field& field) const;
-
   const cfd::GasSolver& gas_;
-  cfd::Field open_fraction_;
+  const cfd::Field& open_fraction_;
   Vertical vertical_;
-  double cross_section_, layer_height_;
-  std::vector<double> open_cells_;  // per layer from below, in cell volumes
+  double cross_section_;
+  BedLayers layers_;
 };
 
 }  // namespace gasgrain::coupling

@@ -40,14 +40,10 @@ CoupledRun::Case CoupledRun::read_case(const std::string& case_file) {
   const ConfigTable file = ConfigTable::parse_file(case_file);
   Case settings;
   settings.gas = cfd::read_gas_case(file);
-  settings.options = read_coupling_options(file.table_or_empty("coupling"), settings.gas.gas);
+  settings.options = read_coupling_options(file.table_or_empty("coupling"), settings.gas);
   file.reject_unknown_keys();
   if (settings.gas.fixed_bed.present) {
     file.fail("fixed_bed", "cannot be combined with grains; remove it or use gasgrain-gas");
-  }
-  if (!settings.gas.probes.empty()) {
-    file.fail("probe",
-              "is for gasgrain-gas; remove the probes, timeseries.csv has the bed's values");
   }
   return settings;
 }
@@ -62,6 +58,7 @@ CoupledRun::CoupledRun(const Case& settings, const std::string& directory, DemHo
       host_(host),
       communicator_(communicator),
       coupling_(case_.gas, case_.options, communicator),
+      monitors_(case_.options.monitor),
       directory_(output_directory(case_.gas.output, directory)),
       series_schedule_(series_interval(case_.options, case_.gas.output)),
       frame_schedule_(case_.gas.output.interval > 0 ? case_.gas.output.interval
@@ -70,9 +67,11 @@ CoupledRun::CoupledRun(const Case& settings, const std::string& directory, DemHo
 
 void CoupledRun::begin(std::span<Vec3> forces) {
   begun_ = true;
-  if (!directory_.empty()) files_ = std::make_unique<RunFiles>(communicator_, directory_);
+  open_files({});
   watch_bed();
+  label_grains();
   row_.exchange = coupling_.begin(forces, host_.records(), host_.time());
+  monitor_->observe(coupling_.void_fraction());
   held_force_ = row_.exchange.force_on_grains;
   audit_.begin(host_.totals(), case_.options.feedback);
   host_.take_wall_impulse();
@@ -92,13 +91,40 @@ void CoupledRun::begin(std::span<Vec3> forces) {
   continue_run();
 }
 
+// Without an output directory nothing is written.
+void CoupledRun::open_files(std::optional<double> continue_from) {
+  if (directory_.empty()) return;
+  files_ = std::make_unique<RunFiles>(communicator_, directory_, continue_from);
+  probes_.emplace(case_.gas.probes, directory_, coupling_.gas(), continue_from);
+}
+
+// 1 for the grains below the mean position along the monitored direction.
+void CoupledRun::label_grains() {
+  if (!monitors_.wants_labels()) return;
+  const int axis = monitors_.mixing_direction();
+  const std::vector<GrainRecord> grains = host_.records();
+  double sums[2] = {};  // of volume, volume times position
+  for (const GrainRecord& grain : grains) {
+    sums[0] += grain.volume;
+    sums[1] += grain.volume * grain.position[axis];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, communicator_);
+  std::vector<double> labels;
+  for (const GrainRecord& grain : grains)
+    labels.push_back(sums[0] * grain.position[axis] < sums[1] ? 1.0 : 0.0);
+  host_.set_labels(labels);
+}
+
 void CoupledRun::watch_bed() {
   const Vec3 gravity = host_.gravity().isZero() ? case_.gas.gas.gravity : host_.gravity();
   monitor_.emplace(coupling_.gas(), coupling_.deposition().open_fraction(), vertical_of(gravity));
 }
 
 void CoupledRun::continue_run() {
-  if (!monitor_) watch_bed();    // restored
+  if (!monitor_) {  // restored
+    watch_bed();
+    monitor_->observe(coupling_.void_fraction());
+  }
   applied_force_ = held_force_;  // the set-up of a run computes all forces anew
   start_clock();
   run_start_ = clock_;
@@ -125,6 +151,8 @@ void CoupledRun::exchange(std::span<Vec3> forces) {
   steps_since_exchange_ = 0;
   elapsed_ = 0.0;
   observe_bed(row_.exchange);
+  monitors_.note_exchange(coupling_, row_.exchange.interval);
+  if (probes_) probes_->write(coupling_.gas());
   write_outputs(row_.time);
   choose_next_interval();
   statistics_.wall_times.gas += row_.exchange.gas_seconds;
@@ -135,8 +163,9 @@ void CoupledRun::exchange(std::span<Vec3> forces) {
 void CoupledRun::observe_bed(const ExchangeReport& report) {
   const int axis = monitor_->vertical().axis;
   row_.time = coupling_.gas().time();
+  monitor_->observe(coupling_.void_fraction());
   row_.bed = {.time = row_.time,
-              .height = monitor_->height(coupling_.void_fraction()),
+              .height = monitor_->height(),
               .pressure_drop = monitor_->pressure_drop(),
               .weight = report.solid_mass * std::abs(host_.gravity()[axis])};
   row_.weight_over_area = row_.bed.weight / monitor_->cross_section();
@@ -174,7 +203,10 @@ void CoupledRun::choose_next_interval() {
 void CoupledRun::write_outputs(double time) {
   if (series_schedule_.due(time)) {
     audit();
-    if (files_) files_->add_row(series_values(row_, monitor_->vertical().axis));
+    row_.monitors = monitors_.take(
+        coupling_, *monitor_, monitors_.wants_labels() ? host_.labels() : std::vector<double>());
+    statistics_.note_monitors(row_.time, row_.balance.interval, row_.monitors);
+    if (files_) files_->add_row(series_values(row_, monitors_.names(), monitor_->vertical().axis));
   }
   if (frame_schedule_.due(time)) write_frame(time);
   if (progress_schedule_.due(time)) {
@@ -185,6 +217,7 @@ void CoupledRun::write_outputs(double time) {
 void CoupledRun::write_frame(double time) {
   if (!files_ || time <= last_frame_time_) return;
   files_->add_frame(time, coupling_.gas(), host_.grain_state());
+  if (case_.options.monitor.profile) files_->add_profile(time, monitor_->layers());
   last_frame_time_ = time;
 }
 
@@ -220,14 +253,14 @@ void CoupledRun::restore(const std::string& path) {
   visit_state(archive);
   file.close();
   begun_ = true;
-  if (!directory_.empty())
-    files_ = std::make_unique<RunFiles>(communicator_, directory_, Series::resume, row_.time);
+  open_files(row_.time);
   host_.print(text("Gas continues at t = %.6g s from %s\n", coupling_.gas().time(), path.c_str()));
 }
 
 void CoupledRun::visit_state(cfd::StateArchive& archive) {
   coupling_.visit_state(archive);
   audit_.visit_state(archive);
+  monitors_.visit_state(archive);
   statistics_.visit_state(archive);
   archive.number_of("exchange_dem_steps", interval_.dem_steps);
   archive.number_of("steps_since_exchange", steps_since_exchange_);
@@ -262,7 +295,8 @@ void CoupledRun::finish_run() {
   if (files_) {
     files_->write({.case_name = case_.options.case_name,
                    .commit = source_commit(),
-                   .quantities = summary_quantities(statistics_, times, means)});
+                   .quantities = summary_quantities(statistics_, times, means, monitors_.names())});
+    probes_->flush();
   }
 }
 

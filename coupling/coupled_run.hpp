@@ -16,9 +16,11 @@
 #include <optional>
 #include <string>
 
+#include "cfd/probes.hpp"
 #include "coupling/bed_monitor.hpp"
 #include "coupling/dem_host.hpp"
 #include "coupling/gas_coupling.hpp"
+#include "coupling/monitors.hpp"
 #include "coupling/run_files.hpp"
 #include "coupling/run_statistics.hpp"
 #include "coupling/shared/schedule.hpp"
@@ -35,6 +37,7 @@ struct SeriesRow {
   ExchangeReport exchange;
   GrainTotals grains;
   plugins::LargestOverlap overlap;
+  std::vector<double> monitors;  // of Monitors::names()
 };
 
 class CoupledRun {
@@ -63,6 +66,7 @@ class CoupledRun {
   const std::string& directory() const { return directory_; }  // of the output, "": none
   const RunStatistics& statistics() const { return statistics_; }
   const SeriesRow& latest() const { return row_; }
+  const Monitors& monitors() const { return monitors_; }
 
  private:
   // What a case file states, read once.
@@ -76,6 +80,8 @@ class CoupledRun {
              MPI_Comm communicator);
   void visit_state(cfd::StateArchive& archive);
   void watch_bed();
+  void open_files(std::optional<double> continue_from);
+  void label_grains();
   void collect_from_host();
   void start_clock();
   void stop_dem_clock();
@@ -91,6 +97,8 @@ class CoupledRun {
   MPI_Comm communicator_;
   GasCoupling coupling_;
   std::optional<BedMonitor> monitor_;  // from begin() on: gravity is known
+  Monitors monitors_;
+  std::optional<cfd::Probes> probes_;  // with files_
   MomentumAudit audit_;
   RunStatistics statistics_;
   std::string directory_;            // of the output, "": none

@@ -4,12 +4,12 @@
 
 namespace gasgrain::coupling {
 
-CouplingOptions read_coupling_options(const ConfigTable& table, const cfd::GasProperties& gas) {
+CouplingOptions read_coupling_options(const ConfigTable& table, const cfd::GasCase& gas_case) {
   CouplingOptions options;
   options.drag_name = table.choice_or("drag", options.drag_name, drag_closure_names());
   options.drag.closure = find_drag_closure(options.drag_name);
-  options.drag.density = gas.density;
-  options.drag.viscosity = gas.viscosity;
+  options.drag.density = gas_case.gas.density;
+  options.drag.viscosity = gas_case.gas.viscosity;
   options.drag.smallest_void_fraction =
       table.number_or("smallest_void_fraction", options.drag.smallest_void_fraction,
                       {.lower = 0, .upper = 1, .lower_open = true});
@@ -24,6 +24,7 @@ CouplingOptions read_coupling_options(const ConfigTable& table, const cfd::GasPr
   options.progress_interval = table.number_or("progress_interval", 0.0, Range::positive());
   options.case_name =
       table.text_or("case_name", std::filesystem::path(table.file()).stem().string());
+  options.monitor = read_monitor_options(table.table_or_empty("monitor"), gas_case.grid);
   table.reject_unknown_keys();
   return options;
 }

@@ -5,6 +5,7 @@
 
 #include "cfd/gas_case.hpp"
 #include "coupling/momentum_exchange.hpp"
+#include "coupling/monitor_options.hpp"
 #include "coupling/shared/config_table.hpp"
 
 namespace gasgrain::coupling {
@@ -24,10 +25,11 @@ struct CouplingOptions {
   double series_interval = 0.0;    // s of gas time between rows; 0 = a tenth of the frames'
   double progress_interval = 0.0;  // s of gas time between progress lines; 0 = as the frames
   std::string case_name;           // in summary.json
+  MonitorOptions monitor;
 };
 
 // Throws UserError: unknown keys or closures, values out of range.
 CouplingOptions read_coupling_options(const ConfigTable& coupling_table,
-                                      const cfd::GasProperties& gas);
+                                      const cfd::GasCase& gas_case);
 
 }  // namespace gasgrain::coupling

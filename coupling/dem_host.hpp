@@ -45,6 +45,9 @@ class DemHost {
 
   virtual std::vector<GrainRecord> records() const = 0;  // coupled grains of this rank
   virtual GrainState grain_state() const = 0;            // the same grains
+  // One number per grain that moves with it: 0 until it is set.
+  virtual void set_labels(const std::vector<double>& labels) = 0;  // in the order of records()
+  virtual std::vector<double> labels() const = 0;
 
   // Collective.
   virtual GrainTotals totals() const = 0;

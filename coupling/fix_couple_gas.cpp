@@ -65,6 +65,8 @@ FixCoupleGas::FixCoupleGas(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char
   MPI_Comm_dup(world, &communicator_);
   DemHost& host = *this;
   run_ = std::make_unique<CoupledRun>(given.case_file, given.directory, host, communicator_);
+  size_vector += static_cast<int>(run_->monitors().names().size());
+  if (run_->monitors().wants_labels()) ++values_per_grain_;
   state_directory_ = run_->directory().empty() ? "." : run_->directory();
   grow_arrays(atom->nmax);
   atom->add_callback(0);
@@ -143,17 +145,18 @@ void FixCoupleGas::restart(char* buffer) {
   if (!path.empty()) run_->restore(path);
 }
 
+// A grain's values follow their number.
 int FixCoupleGas::pack_restart(int i, double* buffer) {
   buffer[0] = maxsize_restart();
-  for (int d = 0; d < 3; ++d) buffer[1 + d] = held_[i][d];
+  pack_exchange(i, buffer + 1);
   return maxsize_restart();
 }
 
 // `nth`: place of this fix among those whose values follow the atom's own, each with its length.
 void FixCoupleGas::unpack_restart(int i, int nth) {
-  const double* values = atom->extra[i];
+  double* values = atom->extra[i];
   for (int n = 0; n < nth; ++n) values += static_cast<int>(*values);
-  held_[i] = column(values + 1);
+  unpack_exchange(i, values + 1);
 }
 
 int FixCoupleGas::size_restart(int) {
@@ -161,7 +164,7 @@ int FixCoupleGas::size_restart(int) {
 }
 
 int FixCoupleGas::maxsize_restart() {
-  return 4;
+  return values_per_grain_ + 1;
 }
 
 double FixCoupleGas::compute_vector(int index) {
@@ -185,8 +188,10 @@ double FixCoupleGas::compute_vector(int index) {
       return row.exchange.solid_volume_residual;
     case 8:
       return row.exchange.divergence;
-    default:
+    case 9:
       return double(row.exchange.grains_outside);
+    default:
+      return row.monitors.empty() ? 0.0 : row.monitors[index - 10];
   }
 }
 
@@ -215,26 +220,31 @@ GasForce FixCoupleGas::gas_force(int local_index) const {
 
 void FixCoupleGas::grow_arrays(int count) {
   held_.resize(count, Vec3::Zero());
+  if (run_->monitors().wants_labels()) labels_.resize(count, 0.0);
 }
 void FixCoupleGas::copy_arrays(int from, int to, int) {
   held_[to] = held_[from];
+  if (!labels_.empty()) labels_[to] = labels_[from];
 }
 void FixCoupleGas::set_arrays(int i) {
   held_[i].setZero();
+  if (!labels_.empty()) labels_[i] = 0.0;
 }
 
 int FixCoupleGas::pack_exchange(int i, double* buffer) {
   for (int d = 0; d < 3; ++d) buffer[d] = held_[i][d];
-  return 3;
+  if (!labels_.empty()) buffer[3] = labels_[i];
+  return values_per_grain_;
 }
 
 int FixCoupleGas::unpack_exchange(int i, double* buffer) {
   held_[i] = column(buffer);
-  return 3;
+  if (!labels_.empty()) labels_[i] = buffer[3];
+  return values_per_grain_;
 }
 
 double FixCoupleGas::memory_usage() {
-  return double(held_.size() * sizeof(Vec3));
+  return double(held_.size() * sizeof(Vec3) + labels_.size() * sizeof(double));
 }
 
 double FixCoupleGas::time() const {
@@ -300,6 +310,17 @@ GrainState FixCoupleGas::grain_state() const {
     state.ids.push_back(atom->tag[i]);
   });
   return state;
+}
+
+void FixCoupleGas::set_labels(const std::vector<double>& labels) {
+  std::size_t n = 0;
+  for_each_grain([&](int i) { labels_[i] = labels[n++]; });
+}
+
+std::vector<double> FixCoupleGas::labels() const {
+  std::vector<double> result;
+  for_each_grain([&](int i) { result.push_back(labels_[i]); });
+  return result;
 }
 
 GrainTotals FixCoupleGas::totals() const {

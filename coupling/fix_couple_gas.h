@@ -6,7 +6,8 @@
 //
 // Vector output f_ID[1..10]: time of the gas (s), pressure drop (Pa), bed height (m), weight over
 // area (Pa), interval between exchanges (s), vertical momentum residual over the weight, residual
-// of the drag exchange, of the solid volume, of continuity, grains outside the gas grid.
+// of the drag exchange, of the solid volume, of continuity, grains outside the gas grid; from 11 on
+// the monitors of the case file in the order of the columns of timeseries.csv.
 #ifdef FIX_CLASS
 // clang-format off
 FixStyle(couple/gas,gasgrain::coupling::FixCoupleGas)
@@ -72,6 +73,8 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
   std::vector<std::string> unmeasured_walls() const override;
   std::vector<GrainRecord> records() const override;
   GrainState grain_state() const override;
+  void set_labels(const std::vector<double>& labels) override;
+  std::vector<double> labels() const override;
   GrainTotals totals() const override;
   GrainSizes sizes() const override;
   Vec3 take_wall_impulse() override;
@@ -87,7 +90,9 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
   MPI_Comm communicator_ = MPI_COMM_NULL;
   std::unique_ptr<CoupledRun> run_;
   std::string state_directory_;  // for states when no checkpoint is under way
+  int values_per_grain_ = 3;     // that move with the atom
   std::vector<Vec3> held_;       // N, per local atom
+  std::vector<double> labels_;   // per local atom, only when a monitor wants them
 };
 
 }  // namespace gasgrain::coupling

@@ -36,6 +36,8 @@ class GasCoupling {
   const cfd::GasSolver& gas() const { return gas_; }
   const CouplingOptions& options() const { return options_; }
   const Deposition& deposition() const { return deposition_; }
+  Deposition& deposition() { return deposition_; }
+  const GrainTransfer& transfer() const { return transfer_; }         // grains of the last exchange
   const cfd::Field& void_fraction() const { return void_fraction_; }  // at the last exchange
   double kernel_width() const { return kernel_width_; }               // m
 

@@ -105,6 +105,14 @@ void GrainTransfer::send(std::span<const GrainRecord> local) {
                     sources_, received_.data());
 }
 
+std::vector<double> GrainTransfer::send_along(std::span<const double> local) const {
+  std::vector<double> buffer(send_order_.size()), result(received_.size());
+  for (std::size_t n = 0; n < send_order_.size(); ++n) buffer[n] = local[send_order_[n]];
+  exchange_messages(decomposition_.communicator(), grain_tag, destinations_, buffer.data(),
+                    sources_, result.data());
+  return result;
+}
+
 void GrainTransfer::return_to_senders(std::span<Vec3> local, std::span<const Vec3> results) const {
   GASGRAIN_ASSERT(results.size() == received_.size());
   std::vector<Vec3> buffer(send_order_.size());

@@ -34,6 +34,9 @@ class GrainTransfer {
   // wrapped in periodic directions. Grains outside the grid stay. Collective.
   void send(std::span<const GrainRecord> local);
 
+  // One more number per grain of the last send(), in the order of received(). Collective.
+  std::vector<double> send_along(std::span<const double> local) const;
+
   // The grains in this rank's block, by sending rank and, within a rank, in the sender's order.
   const std::vector<GrainRecord>& received() const { return received_; }
   // How many of this rank's own grains were outside the grid.

@@ -1,10 +1,12 @@
 #include "coupling/run_files.hpp"
 
-#include <cstdio>
-#include <cstdlib>
+#include <unistd.h>
+
+#include <array>
 #include <filesystem>
 
 #include "cfd/loops.hpp"
+#include "coupling/files/collective_error.hpp"
 #include "coupling/shared/error.hpp"
 
 namespace gasgrain::coupling {
@@ -30,56 +32,59 @@ std::vector<double> owned_values(const std::vector<const cfd::Field*>& fields) {
 
 }  // namespace
 
-RunFiles::RunFiles(MPI_Comm communicator, const std::string& directory, Series series, double from)
-    : directory_(directory),
+RunFiles::RunFiles(MPI_Comm communicator, const std::string& directory,
+                   std::optional<double> continue_from)
+    : communicator_(communicator),
+      directory_(directory),
+      continue_from_(continue_from),
       rank_(rank_in(communicator)),
-      gas_frames_(communicator, directory, "gas", series),
-      grain_frames_(communicator, directory, "grains", series) {
-  int failed = 0;
-  if (rank_ == 0) {
+      gas_frames_(communicator, directory, "gas",
+                  continue_from ? Series::resume : Series::start_new),
+      grain_frames_(communicator, directory, "grains",
+                    continue_from ? Series::resume : Series::start_new) {
+  run_collectively(communicator, [&] {
+    if (rank_ != 0) return;
     std::error_code ignored;  // an absent file is as good as a removed one
     std::filesystem::remove(directory_ + "/summary.json", ignored);
-    open_series(series, from);
-    failed = !series_;
-  }
-  MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
-  if (failed) {
-    throw UserError("cannot write '" + directory_ +
-                    "/timeseries.csv'; check that the output directory is writable");
-  }
+    const bool writable =
+        std::filesystem::is_directory(directory_) && access(directory_.c_str(), W_OK) == 0;
+    if (!writable) throw UserError("cannot write into the output directory '" + directory_ + "'");
+  });
 }
 
-// The first column of a row is its time; a row that was cut off by a kill has no line end.
-void RunFiles::open_series(Series series, double from) {
-  const std::string path = directory_ + "/timeseries.csv";
-  std::vector<std::string> kept;
-  if (series == Series::resume) {
-    std::ifstream old(path);
-    for (std::string line; std::getline(old, line) && !old.eof();) {
-      constexpr double rounding = 1e-9;  // of the printed time
-      if (kept.empty() || std::strtod(line.c_str(), nullptr) <= from * (1.0 + rounding))
-        kept.push_back(line);
-    }
-  }
-  series_.open(path);
-  for (const std::string& line : kept) series_ << line << '\n';
-  series_ << std::flush;
-  has_header_ = !kept.empty();
+void RunFiles::open(std::optional<CsvFile>& file, const std::string& name,
+                    const std::vector<std::string>& columns) {
+  run_collectively(communicator_, [&] {
+    if (rank_ == 0) file.emplace(directory_ + "/" + name, columns, continue_from_);
+  });
 }
 
 void RunFiles::add_row(const std::vector<NamedValue>& row) {
-  if (rank_ != 0) return;
-  if (!has_header_) {
-    for (std::size_t n = 0; n < row.size(); ++n) series_ << (n ? "," : "") << row[n].name;
-    series_ << '\n';
-    has_header_ = true;
+  if (!has_series_) {
+    std::vector<std::string> columns;
+    for (const NamedValue& value : row) columns.push_back(value.name);
+    open(series_, "timeseries.csv", columns);
+    has_series_ = true;
   }
-  char number[32];
-  for (std::size_t n = 0; n < row.size(); ++n) {
-    std::snprintf(number, sizeof number, "%.10g", row[n].value);
-    series_ << (n ? "," : "") << number;
-  }
-  series_ << '\n' << std::flush;
+  run_collectively(communicator_, [&] {
+    if (!series_) return;
+    std::vector<double> values;
+    for (const NamedValue& value : row) values.push_back(value.value);
+    series_->add(values);
+    series_->flush();
+  });
+}
+
+void RunFiles::add_profile(double time, const BedLayers& layers) {
+  if (!has_profile_)
+    open(profile_, "void_fraction_profile.csv", {"time", "height", "void_fraction"});
+  has_profile_ = true;
+  run_collectively(communicator_, [&] {
+    if (!profile_) return;
+    for (std::size_t layer = 0; layer < layers.count(); ++layer)
+      profile_->add(std::array{time, layers.middle(layer), layers.void_fraction[layer]});
+    profile_->flush();
+  });
 }
 
 void RunFiles::add_frame(double time, const cfd::GasSolver& gas, const GrainState& grains) {

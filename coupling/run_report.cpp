@@ -16,6 +16,11 @@ std::string percent_shares(const WallTimes& times) {
               times.coupling * percent, times.gas * percent);
 }
 
+std::string unit_of(const std::string& monitor) {
+  if (monitor.starts_with("bed_height")) return "m";
+  return monitor.starts_with("flux") ? "kg/s" : "-";
+}
+
 std::string with_interval(const TimeMean& mean, double scale, const char* unit) {
   if (std::isnan(mean.value)) return "not reached: the run ended before coupling.average_from";
   std::string result = text("%.4g", mean.value * scale);
@@ -34,7 +39,7 @@ BedMeans bed_means(const RunStatistics& statistics, const BedMonitor& monitor, d
   const double weight = batch_mean(statistics.weight, from).value;
   means.weight_over_area = weight / monitor.cross_section();
   means.static_estimate =
-      weight * means.height.value / monitor.open_volume_below(means.height.value);
+      weight * means.height.value / open_volume_below(monitor.layers(), means.height.value);
   return means;
 }
 
@@ -152,51 +157,57 @@ std::string closing_text(const SeriesRow& row, const RunStatistics& statistics,
   return out;
 }
 
-std::vector<NamedValue> series_values(const SeriesRow& row, int axis) {
+std::vector<NamedValue> series_values(const SeriesRow& row,
+                                      const std::vector<std::string>& monitors, int axis) {
   const ExchangeReport& exchange = row.exchange;
   const MomentumBalance& balance = row.balance;
   const double per_time = balance.interval > 0 ? 1.0 / balance.interval : 0.0;
-  return {{"time", row.time},
-          {"pressure_drop", row.bed.pressure_drop},
-          {"bed_height", row.bed.height},
-          {"weight_over_area", row.weight_over_area},
-          {"momentum_residual", row.momentum_residual},
-          {"grain_momentum_rate", balance.grain_change[axis] * per_time},
-          {"gas_momentum_rate", balance.gas_change[axis] * per_time},
-          {"side_pressure_force", balance.side_pressure[axis] * per_time},
-          {"grain_weight", balance.grain_weight[axis] * per_time},
-          {"gas_weight", balance.gas_weight[axis] * per_time},
-          {"walls_on_grains", balance.walls_on_grains[axis] * per_time},
-          {"bodies_on_gas", balance.bodies_on_gas[axis] * per_time},
-          {"walls_by_drag", balance.walls_by_drag[axis] * per_time},
-          {"gas_through_sides", balance.gas_through_sides[axis] * per_time},
-          {"in_transit", balance.in_transit[axis] * per_time},
-          {"third_law_residual", exchange.third_law_residual},
-          {"pressure_force_residual", exchange.pressure_residual},
-          {"solid_volume_residual", exchange.solid_volume_residual},
-          {"divergence", exchange.divergence},
-          {"removed_mean", exchange.removed_mean},
-          {"smallest_void_fraction", exchange.smallest_void_fraction},
-          {"limited_closures", double(exchange.limited)},
-          {"grains_inside", double(exchange.grains_inside)},
-          {"grains_outside", double(exchange.grains_outside)},
-          {"kinetic_energy", row.grains.kinetic_energy},
-          {"largest_overlap", row.overlap.length},
-          {"largest_relative_overlap", row.overlap.relative},
-          {"interval", exchange.interval},
-          {"gas_steps", double(exchange.gas_steps)},
-          {"pressure_iterations", double(exchange.pressure_iterations)},
-          {"pressure_fallbacks", double(exchange.pressure_fallbacks)}};
+  std::vector<NamedValue> values = {
+      {"time", row.time},
+      {"pressure_drop", row.bed.pressure_drop},
+      {"bed_height", row.bed.height},
+      {"weight_over_area", row.weight_over_area},
+      {"momentum_residual", row.momentum_residual},
+      {"grain_momentum_rate", balance.grain_change[axis] * per_time},
+      {"gas_momentum_rate", balance.gas_change[axis] * per_time},
+      {"side_pressure_force", balance.side_pressure[axis] * per_time},
+      {"grain_weight", balance.grain_weight[axis] * per_time},
+      {"gas_weight", balance.gas_weight[axis] * per_time},
+      {"walls_on_grains", balance.walls_on_grains[axis] * per_time},
+      {"bodies_on_gas", balance.bodies_on_gas[axis] * per_time},
+      {"walls_by_drag", balance.walls_by_drag[axis] * per_time},
+      {"gas_through_sides", balance.gas_through_sides[axis] * per_time},
+      {"in_transit", balance.in_transit[axis] * per_time},
+      {"third_law_residual", exchange.third_law_residual},
+      {"pressure_force_residual", exchange.pressure_residual},
+      {"solid_volume_residual", exchange.solid_volume_residual},
+      {"divergence", exchange.divergence},
+      {"removed_mean", exchange.removed_mean},
+      {"smallest_void_fraction", exchange.smallest_void_fraction},
+      {"limited_closures", double(exchange.limited)},
+      {"grains_inside", double(exchange.grains_inside)},
+      {"grains_outside", double(exchange.grains_outside)},
+      {"kinetic_energy", row.grains.kinetic_energy},
+      {"largest_overlap", row.overlap.length},
+      {"largest_relative_overlap", row.overlap.relative},
+      {"interval", exchange.interval},
+      {"gas_steps", double(exchange.gas_steps)},
+      {"pressure_iterations", double(exchange.pressure_iterations)},
+      {"pressure_fallbacks", double(exchange.pressure_fallbacks)}};
+  for (std::size_t n = 0; n < monitors.size(); ++n)
+    values.push_back({monitors[n], row.monitors.empty() ? 0.0 : row.monitors[n]});
+  return values;
 }
 
 std::vector<Quantity> summary_quantities(const RunStatistics& statistics, const WallTimes& times,
-                                         const BedMeans& means) {
+                                         const BedMeans& means,
+                                         const std::vector<std::string>& monitors) {
   const RunExtremes& extremes = statistics.extremes;
   const auto half_width = [](const TimeMean& mean) {
     return mean.half_width.value_or(std::numeric_limits<double>::quiet_NaN());
   };
   const std::string batches = "95 % interval of ten batch means";
-  return {
+  std::vector<Quantity> quantities = {
       {"bed_height_mean",
        means.height.value,
        "m",
@@ -235,6 +246,15 @@ std::vector<Quantity> summary_quantities(const RunStatistics& statistics, const 
        {},
        {},
        "all wall time"}};
+  for (std::size_t n = 0; n < monitors.size() && n < statistics.monitors.size(); ++n) {
+    quantities.push_back({monitors[n] + "_mean",
+                          batch_mean(statistics.monitors[n], means.from).value,
+                          unit_of(monitors[n]),
+                          {},
+                          {},
+                          "time mean of the rows of timeseries.csv"});
+  }
+  return quantities;
 }
 
 }  // namespace gasgrain::coupling

@@ -20,9 +20,11 @@ struct BedMeans {
 BedMeans bed_means(const RunStatistics& statistics, const BedMonitor& monitor, double from);
 
 // The columns of timeseries.csv; vectors by their component along `axis`.
-std::vector<NamedValue> series_values(const SeriesRow& row, int axis);
+std::vector<NamedValue> series_values(const SeriesRow& row,
+                                      const std::vector<std::string>& monitors, int axis);
 std::vector<Quantity> summary_quantities(const RunStatistics& statistics, const WallTimes& times,
-                                         const BedMeans& means);
+                                         const BedMeans& means,
+                                         const std::vector<std::string>& monitors);
 
 // What was set up, before the first step.
 struct Scene {

@@ -66,6 +66,11 @@ void RunStatistics::visit_state(cfd::StateArchive& archive) {
   visit(archive, "height", height);
   visit(archive, "pressure_drop", pressure_drop);
   visit(archive, "weight", weight);
+  double kinds = double(monitors.size());
+  archive.number("monitors", kinds);
+  monitors.resize(static_cast<std::size_t>(kinds));
+  for (std::size_t n = 0; n < monitors.size(); ++n)
+    visit(archive, "monitor_" + std::to_string(n), monitors[n]);
   archive.number("last_momentum_residual", last_momentum_residual);
   archive.number("grain_steps", grain_steps);
 }
@@ -75,6 +80,12 @@ void RunStatistics::note(const BedState& bed, const ExchangeReport& report) {
   height.push_back({bed.time, report.interval, bed.height});
   pressure_drop.push_back({bed.time, report.interval, bed.pressure_drop});
   weight.push_back({bed.time, report.interval, bed.weight});
+}
+
+void RunStatistics::note_monitors(double time, double interval, const std::vector<double>& values) {
+  monitors.resize(values.size());
+  for (std::size_t n = 0; n < values.size(); ++n)
+    monitors[n].push_back({time, interval, values[n]});
 }
 
 }  // namespace gasgrain::coupling

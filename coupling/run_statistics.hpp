@@ -41,11 +41,14 @@ struct RunExtremes {
 struct RunStatistics {
   RunExtremes extremes;
   std::vector<TimedSample> height, pressure_drop, weight;  // samples at exchanges
+  std::vector<std::vector<TimedSample>> monitors;          // of Monitors::names(), samples at rows
   double last_momentum_residual = 0.0;
   double grain_steps = 0.0;  // grains times DEM steps
   WallTimes wall_times;
 
   void note(const BedState& bed, const ExchangeReport& report);
+  // Values that hold for the `interval` [s] up to `time`.
+  void note_monitors(double time, double interval, const std::vector<double>& values);
   // All but the wall times.
   void visit_state(cfd::StateArchive& archive);
 };

@@ -71,6 +71,40 @@ class CoupledBed(unittest.TestCase):
         self.assertEqual(times["gas"], times["grains"])  # one time line
         self.assertEqual(len(times["gas"]), 5)  # start, three whole intervals, last exchange
 
+    def test_monitors_reach_files_and_thermo_output(self):
+        monitor = ('series_interval = 1e-3\nmonitor = {profile = true, bubble_void_fraction = 0.8, '
+                   'mixing = "x", plane = [{name = "low", direction = "z", position = 0.004}]}')
+        probe = '[[probe]]\nname = "bottom"\npoint = [0.001, 0.001, 0.001]\ninterval = 1e-3\n'
+        bench = bed.bench(bed.case(coupling=monitor, interval=5e-3) + probe)
+        done = bench.run(bed.script("thermo_style custom step f_gas[3] f_gas[11] f_gas[13] f_gas[17]"
+                                    "\nthermo 500\nrun 1000"), ranks=2)
+        rows = bed.series(bench.directory)
+        last = rows[-1]
+        # 0.7 is crossed lower down than 0.8, and 0.9 above it
+        self.assertLess(last["bed_height_void_0.7"], last["bed_height"])
+        self.assertGreater(last["bed_height_void_0.9"], last["bed_height"])
+        # the bed is uniform but for the tube: all heights agree within a tenth or so
+        for name in ("bed_height_solid_99", "bed_height_twice_centre"):
+            self.assertAlmostEqual(last[name], last["bed_height"], delta=0.15 * last["bed_height"])
+        self.assertGreater(rows[0]["mixing_index"], 0.0)
+        self.assertLess(rows[0]["mixing_index"], 0.5)  # two halves beside each other
+        self.assertGreater(max(row["flux_up_low"] for row in rows), 0.0)
+        means = bed.quantities(bench.directory)
+        self.assertAlmostEqual(means["bed_height_void_0.9_mean"],
+                               sum(row["bed_height_void_0.9"] for row in rows) / len(rows),
+                               delta=1e-3 * last["bed_height"])
+        printed = [line.split() for line in done.text.splitlines() if line.split()[:1] == ["1000"]]
+        for text, name in zip(printed[0][2:], ("bed_height_void_0.7", "bed_height_solid_99",
+                                               "mixing_index")):
+            self.assertAlmostEqual(float(text), last[name], delta=1e-4 * abs(last[name]), msg=name)
+        with open(bench.directory / "out" / "void_fraction_profile.csv") as file:
+            profile = [[float(word) for word in line.split(",")] for line in file.readlines()[1:]]
+        self.assertEqual(len(profile) % 16, 0)
+        self.assertLess(min(row[2] for row in profile[-16:]), 0.6)
+        self.assertAlmostEqual(profile[-1][2], 1.0, delta=1e-9)
+        with open(bench.directory / "out" / "probe_bottom.csv") as file:
+            self.assertEqual(len(file.readlines()), len(rows) + 1)
+
     def test_several_runs_continue_one_another(self):
         whole = bed.bench(bed.case(coupling="series_interval = 1e-4"))
         whole.run(bed.script("run 200"))

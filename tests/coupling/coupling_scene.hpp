@@ -20,7 +20,7 @@ struct CoupledCase {
   explicit CoupledCase(const std::string& text) {
     const ConfigTable file = ConfigTable::parse(text, "test.toml");
     gas = cfd::read_gas_case(file);
-    options = read_coupling_options(file.table_or_empty("coupling"), gas.gas);
+    options = read_coupling_options(file.table_or_empty("coupling"), gas);
     file.reject_unknown_keys();
   }
 };
