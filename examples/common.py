@@ -38,19 +38,17 @@ def binary(name):
     return found
 
 
-def run_gasgrain(directory, script, ranks, variables):
-    """Runs `script` in `directory`; LIGGGHTS's own screen output goes to log.liggghts only.
+def start_gasgrain(directory, script, ranks, variables):
+    """Starts `script` in `directory` and returns the process.
 
-    Fails, with the exit code, when gasgrain does.
+    LIGGGHTS's own screen output goes to log.liggghts only.
     """
     command = ["mpirun", "-np", str(ranks), binary("gasgrain"), "-in", script, "-log", "log.liggghts"]
     command += ["-screen", "/dev/null"]
     for name, value in variables.items():
         command += ["-var", name, f"{value:.10g}" if isinstance(value, float) else str(value)]
     sys.stdout.flush()
-    done = subprocess.run(command, cwd=directory, env=mpi_environment(ranks))
-    if done.returncode != 0:
-        fail(f"gasgrain ended with exit code {done.returncode}; see {directory}/log.liggghts")
+    return subprocess.Popen(command, cwd=directory, env=mpi_environment(ranks))
 
 
 def set_key(text, key, value):
@@ -61,19 +59,44 @@ def set_key(text, key, value):
     return changed
 
 
+def set_text(text, old, new):
+    """`text` with the one place that reads `old` replaced."""
+    if text.count(old) != 1:
+        fail(f"file holds {text.count(old)} places '{old}', expected one")
+    return text.replace(old, new)
+
+
+def read_json(path):
+    return json.loads(pathlib.Path(path).read_text())
+
+
+def write_json(path, value):
+    """Replaces the file whole."""
+    new = path.with_suffix(".tmp")
+    new.write_text(json.dumps(value, indent=1) + "\n")
+    new.replace(path)
+
+
 def complete_summary(directory, change):
     """Lets `change` edit the quantities (name -> quantity) of summary.json; returns them."""
     path = pathlib.Path(directory) / "summary.json"
-    summary = json.loads(path.read_text())
+    summary = read_json(path)
     quantities = {quantity["name"]: quantity for quantity in summary["quantities"]}
     change(quantities)
-    new = path.with_suffix(".tmp")
-    new.write_text(json.dumps(summary, indent=1) + "\n")
-    new.replace(path)
+    write_json(path, summary)
     return quantities
+
+
+def add_quantities(directory, rows):
+    """Adds quantities to summary.json, in place of those of the same names."""
+    path = pathlib.Path(directory) / "summary.json"
+    summary = read_json(path)
+    names = {row["name"] for row in rows}
+    kept = [quantity for quantity in summary["quantities"] if quantity["name"] not in names]
+    write_json(path, {**summary, "quantities": kept + rows})
 
 
 def read_summary(directory):
     """summary.json as a dictionary name -> quantity."""
-    summary = json.loads((pathlib.Path(directory) / "summary.json").read_text())
+    summary = read_json(pathlib.Path(directory) / "summary.json")
     return {quantity["name"]: quantity for quantity in summary["quantities"]}

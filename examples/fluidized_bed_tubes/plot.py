@@ -1,60 +1,52 @@
-"""Picture of the bed: grains in section, void fraction, bed height and pressure drop over time."""
+"""Pictures of the bed: grains in section, void fraction, series; gas and loads at the tubes."""
 
+import csv
 import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 
 import frames  # noqa: E402
-import matplotlib  # noqa: E402
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as pyplot  # noqa: E402
 import numpy  # noqa: E402
+import pictures  # noqa: E402
+from pictures import MM, pyplot  # noqa: E402
 
 import common  # noqa: E402
 
 WIDTH, DEPTH, SHOWN_HEIGHT = 0.05, 0.01, 0.15  # m
-TUBES = [(0.015, 0.020), (0.035, 0.020), (0.015, 0.040), (0.035, 0.040)]  # x, z in m
+TUBES = (15, 35, 20, 40)  # left, right, low, high axes, mm
 TUBE_RADIUS = 0.005  # m
+TUBE_NAMES = ("lower left", "lower right", "upper left", "upper right")
 
 
-def draw_tubes(axes):
-    for x, z in TUBES:
-        axes.add_patch(pyplot.Circle((1e3 * x, 1e3 * z), 1e3 * TUBE_RADIUS, facecolor="0.75",
+def tube_axes(tubes):
+    """(x, z) of the four axes, m, in the order of the bodies tube1 to tube4."""
+    left, right, low, high = (1e-3 * value for value in tubes)
+    return [(left, low), (right, low), (left, high), (right, high)]
+
+
+def mark_tubes(axes, tubes):
+    for x, z in tube_axes(tubes):
+        axes.add_patch(pyplot.Circle((MM * x, MM * z), MM * TUBE_RADIUS, facecolor="0.75",
                                      edgecolor="0.3", linewidth=0.8, zorder=3))
 
 
-def frame_axes(axes, title):
-    axes.set(xlim=(0, 1e3 * WIDTH), ylim=(0, 1e3 * SHOWN_HEIGHT), aspect="equal", title=title,
-             xlabel="x / mm")
-    axes.tick_params(length=2)
-
-
-def draw_grains(axes, grains):
-    """Grains whose centre lies in the front half of the depth, painted from back to front."""
-    position, velocity, radius = grains["position"], grains["velocity"], grains["radius"]
-    order = numpy.argsort(-position[:, 1])
-    order = order[position[order, 1] < DEPTH / 2]
-    circles = matplotlib.collections.EllipseCollection(
-        2e3 * radius[order], 2e3 * radius[order], numpy.zeros(len(order)), units="xy",
-        offsets=1e3 * position[order][:, [0, 2]], transOffset=axes.transData,
-        array=velocity[order, 2], cmap="coolwarm", edgecolors="0.25", linewidths=0.1)
-    circles.set_clim(-0.4, 0.4)
-    axes.add_collection(circles)
-    draw_tubes(axes)
+def draw_grains(axes, grains, tubes):
+    """Grains whose centre lies in the front half of the depth."""
+    circles = pictures.grains_in_section(axes, grains, (0, DEPTH / 2), grains["velocity"][:, 2],
+                                         (-0.4, 0.4), "coolwarm")
+    mark_tubes(axes, tubes)
+    pictures.frame_section(axes, (0, WIDTH), (0, SHOWN_HEIGHT), None)
     return circles
 
 
-def draw_void_fraction(axes, gas):
+def draw_void_fraction(axes, gas, tubes):
     """Mean over the depth; the line marks 0.8, the surface of bubbles and bed."""
     void = gas["void_fraction"].mean(axis=1)
     height = void.shape[0] * WIDTH / void.shape[1]
-    extent = (0, 1e3 * WIDTH, 0, 1e3 * height)
-    picture = axes.imshow(void, origin="lower", extent=extent, cmap="viridis", vmin=0.4, vmax=1.0,
-                          interpolation="nearest")
-    axes.contour(void, levels=[0.8], extent=extent, origin="lower", colors="white", linewidths=0.8)
-    draw_tubes(axes)
+    picture = pictures.void_fraction_in_section(axes, void, (0, WIDTH, 0, height))
+    mark_tubes(axes, tubes)
+    pictures.frame_section(axes, (0, WIDTH), (0, SHOWN_HEIGHT), None)
     return picture
 
 
@@ -76,7 +68,7 @@ def draw_series(axes, series, column, mean, reference, start, scale):
     axes.legend(loc="best", frameon=False, fontsize=8)
 
 
-def draw(directory, picture, start):
+def draw(directory, picture, start, tubes):
     """Writes `picture` (PNG) from the results in `directory`; `start` of the means in s."""
     series = frames.read_time_series(directory)
     summary = common.read_summary(directory)
@@ -93,11 +85,10 @@ def draw(directory, picture, start):
     pressure_axes = figure.add_subplot(grid[0, 3])
     height_axes = figure.add_subplot(grid[1, 3], sharex=pressure_axes)
 
-    circles = draw_grains(grains_axes, frames.read_frame(grain_file))
-    frame_axes(grains_axes, f"grains, t = {last_time:.2f} s")
-    grains_axes.set_ylabel("z / mm")
-    void = draw_void_fraction(void_axes, frames.read_frame(gas_file))
-    frame_axes(void_axes, "void fraction")
+    circles = draw_grains(grains_axes, frames.read_frame(grain_file), tubes)
+    grains_axes.set(title=f"grains, t = {last_time:.2f} s", ylabel="z / mm")
+    void = draw_void_fraction(void_axes, frames.read_frame(gas_file), tubes)
+    void_axes.set_title("void fraction")
     void_axes.tick_params(labelleft=False)
     figure.colorbar(circles, ax=grains_axes, location="bottom", label="vertical velocity / (m/s)")
     figure.colorbar(void, ax=void_axes, location="bottom", label="mean over the depth")
@@ -106,13 +97,96 @@ def draw(directory, picture, start):
                 (balance["value"], "weight and buried tubes"), start, 1.0)
     pressure_axes.set(ylabel="pressure drop / Pa")
     draw_series(height_axes, series, "bed_height", height["value"],
-                (height["reference"], "experiment"), start, 1e3)
+                (height["reference"], "experiment"), start, MM)
     height_axes.set(ylabel="bed height / mm", xlabel="time with gas / s")
     figure.savefig(picture, dpi=130)
     pyplot.close(figure)
 
 
+def read_loads(directory):
+    """loads.csv: column -> array. Of a time that two pieces of a run wrote, the later row."""
+    with open(pathlib.Path(directory) / "loads.csv", newline="", encoding="ascii") as file:
+        rows = list(csv.reader(file))
+    names = rows[0]
+    by_time = {float(row[0]): [float(value) for value in row] for row in rows
+               if len(row) == len(names) and row[0] != names[0]}
+    table = numpy.array([by_time[time] for time in sorted(by_time)])
+    return dict(zip(names, table.T))
+
+
+def mean_gas(directory, start):
+    """Means over time and depth: void fraction [z, x] and superficial velocity eps u [z, x, xz]."""
+    void, flux, count = 0.0, 0.0, 0
+    for time, file in frames.frame_files(directory, "gas"):
+        if time < start:
+            continue
+        gas = frames.read_frame(file)
+        void = void + gas["void_fraction"].mean(axis=1)
+        flux = flux + (gas["void_fraction"][..., None] * gas["velocity"])[..., [0, 2]].mean(axis=1)
+        count += 1
+    return void / count, flux / count
+
+
+def draw_tubes_closely(directory, picture, start, tubes):
+    """Mean gas flow around the tubes and the forces that the grains exert on them."""
+    void, flux = mean_gas(directory, start)
+    loads = read_loads(directory)
+    layers, columns = void.shape
+    cell = WIDTH / columns
+    top = max(z for _, z in tube_axes(tubes)) + 0.02
+    figure, (flow, mean_axes, axes) = pyplot.subplots(
+        1, 3, figsize=(12, 4.6), layout="constrained", width_ratios=[1.1, 0.8, 1.5])
+    image = pictures.void_fraction_in_section(flow, void, (0, WIDTH, 0, layers * cell))
+    x, z = MM * cell * (numpy.arange(columns) + 0.5), MM * cell * (numpy.arange(layers) + 0.5)
+    shown = z < MM * top
+    flow.streamplot(x, z[shown], flux[shown, :, 0], flux[shown, :, 1], color="white",
+                    linewidth=0.7, density=1.2, arrowsize=0.7)
+    mark_tubes(flow, tubes)
+    pictures.frame_section(flow, (0, WIDTH), (0, top), "mean gas flow")
+    flow.set_ylabel("z / mm")
+    figure.colorbar(image, ax=flow, location="bottom", label="mean void fraction")
+
+    late = loads["time"] >= start
+    window = max(1, round(0.02 / numpy.median(numpy.diff(loads["time"]))))
+    for number, name in enumerate(TUBE_NAMES, 1):
+        force = {axis: 1e3 * loads[f"tube{number}_{axis}"] for axis in "xz"}
+        means = [force[axis][late].mean() for axis in "xz"]
+        spread = [force[axis][late].std() for axis in "xz"]
+        mean_axes.errorbar(*means, xerr=spread[0], yerr=spread[1], fmt="o", capsize=2, label=name)
+        smooth = numpy.convolve(force["z"], numpy.ones(window) / window, mode="valid")
+        axes.plot(loads["time"][window // 2:][:len(smooth)], smooth, linewidth=0.8, label=name)
+    mean_axes.axhline(0, color="0.6", linewidth=0.6, zorder=0)
+    mean_axes.axvline(0, color="0.6", linewidth=0.6, zorder=0)
+    mean_axes.set(xlabel="horizontal / mN", ylabel="vertical / mN",
+                  title="force of the grains: mean and spread")
+    axes.set(xlabel="time with gas / s", ylabel="vertical / mN",
+             title="vertical force of the grains, means over 20 ms")
+    axes.axvspan(start, loads["time"][-1], color="0.95", zorder=0)
+    axes.legend(frameon=False, fontsize=8)
+    figure.savefig(picture, dpi=130)
+    pyplot.close(figure)
+
+
+def animate(directory, path, tubes, most=80):
+    """Grains and void fraction over time."""
+    gas, grains = (frames.frame_files(directory, name) for name in ("gas", "grains"))
+    chosen = numpy.unique(numpy.linspace(0, len(gas) - 1, min(most, len(gas))).astype(int))
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(5, 6), sharey=True,
+                                            layout="constrained")
+
+    def draw_frame(number):
+        for axes in (left, right):
+            axes.clear()
+        time, gas_file = gas[chosen[number]]
+        draw_grains(left, frames.read_frame(grains[chosen[number]][1]), tubes)
+        draw_void_fraction(right, frames.read_frame(gas_file), tubes)
+        left.set(title=f"grains, t = {time:.2f} s", ylabel="z / mm")
+        right.set_title("void fraction")
+
+    pictures.animate(path, figure, len(chosen), draw_frame)
+
+
 if __name__ == "__main__":
     if len(sys.argv) != 4:
         sys.exit("usage: plot.py DIRECTORY PICTURE.png START_OF_MEANS")
-    draw(sys.argv[1], sys.argv[2], float(sys.argv[3]))
+    draw(sys.argv[1], sys.argv[2], float(sys.argv[3]), TUBES)

@@ -1,8 +1,6 @@
-"""Fluidized bed with four inserted tubes (Mori, Wu, Sakai 2019, case 1)"""
+"""Fluidized bed with four inserted tubes (Mori, Wu, Sakai 2019, cases 1-1 and 1-2)"""
 
 import argparse
-import math
-import os
 import pathlib
 import sys
 
@@ -10,21 +8,20 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
 import common  # noqa: E402
+import grains  # noqa: E402
+import heights  # noqa: E402
+import pieces  # noqa: E402
 import plot  # noqa: E402
 
 ORIGINAL_COUNT = 250_000 * 5**3  # the paper: 250 000 grains of ratio 5
 ORIGINAL_RADIUS = 50e-6  # m
 DENSITY = 2500.0  # kg/m^3
 RESTITUTION = 0.9
-START_UP = 0.3  # s: the packed bed rises as a plug before it bubbles
+SIZE = (0.05, 0.01, 0.2)  # m
+START_UP = {"cheap": 0.3, "paper": 1.0}  # s: the packed bed rises as a plug before it bubbles
 MEASURED_HEIGHT = {0.2: 0.0917, 0.3: 0.0949}  # gas velocity in m/s -> bed height in m
-
-
-def contact_time(spring):
-    """Duration of a contact of two original particles, s (half period of the damped spring)."""
-    mass = DENSITY * 4 / 3 * math.pi * ORIGINAL_RADIUS**3
-    damping_ratio = -math.log(RESTITUTION) / math.hypot(math.pi, math.log(RESTITUTION))
-    return math.pi * math.sqrt(mass / 2 / spring) / math.sqrt(1 - damping_ratio**2)
+CASES = {0.2: "1-1", 0.3: "1-2"}
+ROW = 2e-3  # s between rows of loads.csv
 
 
 def add_experiment(quantities, velocity):
@@ -54,72 +51,113 @@ def print_comparison(quantities):
 
 def options():
     parser = argparse.ArgumentParser(prog="examples/run fluidized_bed_tubes", description=__doc__)
-    parser.add_argument("--grain", type=float, default=10, metavar="L",
-                        help="coarse-grain ratio l; the paper takes 5 (default %(default)g)")
+    parser.add_argument("--paper", action="store_true",
+                        help="the paper's grains and spring, 1 s + 2 s: --grain 5 --spring 50 --time 3 "
+                             "--start-up 1 unless stated (hours)")
+    parser.add_argument("--grain", type=float, metavar="L",
+                        help="coarse-grain ratio l; the paper takes 5 (default 10)")
     parser.add_argument("--velocity", type=float, default=0.2, metavar="U",
                         help="superficial gas velocity, m/s; the paper takes 0.2 and 0.3 (default %(default)g)")
-    parser.add_argument("--time", type=float, default=0.8, metavar="T",
-                        help="simulated time with gas, s; means leave out the first 0.3 s (default %(default)g)")
-    parser.add_argument("--spring", type=float, default=0.25, metavar="K",
-                        help="spring constant of the original particle, N/m; the paper takes 50 (default %(default)g)")
+    parser.add_argument("--time", type=float, metavar="T",
+                        help="simulated time with gas, s (default 0.8)")
+    parser.add_argument("--start-up", type=float, metavar="T",
+                        help="time that the means leave out, s (default 0.3)")
+    parser.add_argument("--spring", type=float, metavar="K",
+                        help="spring constant of the original particle, N/m; the paper takes 50 (default 0.25)")
+    parser.add_argument("--friction", type=float, default=0.3, metavar="MU",
+                        help="coefficient of friction (default %(default)g)")
     parser.add_argument("--gas-step", type=float, default=1e-4, metavar="S",
                         help="largest gas step, s (default %(default)g)")
-    parser.add_argument("--ranks", type=int, default=os.cpu_count(), metavar="N",
-                        help="MPI ranks (default: all cores, here %(default)s)")
-    parser.add_argument("--out", default=str(common.ROOT / "out" / "fluidized_bed_tubes"), metavar="DIR",
-                        help="directory for the results (default out/fluidized_bed_tubes)")
+    parser.add_argument("--cell", type=float, default=1.25, metavar="MM",
+                        help="cell of the gas, mm (default %(default)g)")
+    parser.add_argument("--kernel", type=float, metavar="MM",
+                        help="standard deviation of the kernel, mm (default: the larger of 0.8 cells and 1.2 grains)")
+    parser.add_argument("--drag", default="gidaspow", metavar="NAME", help="drag closure (default %(default)s)")
+    parser.add_argument("--tubes", type=float, nargs=4, default=(15, 35, 20, 40), metavar=("X1", "X2", "Z1", "Z2"),
+                        help="axes of the four tubes, mm; the paper does not print them (default 15 35 20 40)")
+    pieces.add_options(parser, "fluidized_bed_tubes")
     chosen = parser.parse_args()
-    for name, lowest in (("grain", 1), ("velocity", 0), ("ranks", 1)):
-        if not getattr(chosen, name) >= lowest:
-            parser.error(f"--{name} is {getattr(chosen, name):g}, but must be at least {lowest}")
-    for name in ("time", "spring", "gas_step"):
-        if not getattr(chosen, name) > 0:
-            parser.error(f"--{name.replace('_', '-')} is {getattr(chosen, name):g}, but must be positive")
+    preset = (5.0, 50.0, 3.0, 1.0) if chosen.paper else (10.0, 0.25, 0.8, 0.3)
+    for name, value in zip(("grain", "spring", "time", "start_up"), preset):
+        if getattr(chosen, name) is None:
+            setattr(chosen, name, value)
+    pieces.require(parser, chosen, {"grain": 1, "ranks": 1, "time": 0, "spring": 0, "gas_step": 0,
+                                    "cell": 0, "hours": 0, "velocity": 0})
     if chosen.grain > 25:
         parser.error(f"--grain is {chosen.grain:g}: grains above 2.5 mm (l = 25) do not fit between tubes and walls")
+    if not 0 <= chosen.start_up < chosen.time:
+        parser.error(f"--start-up is {chosen.start_up:g}, but must lie in [0, {chosen.time:g}), the simulated time")
     return chosen
+
+
+def case_text(chosen, exchange):
+    """The case file with what was chosen."""
+    case = (HERE / "gas.toml").read_text()
+    for key, value in (("superficial_velocity", chosen.velocity), ("exchange_interval", exchange),
+                       ("largest_step", chosen.gas_step), ("average_from", chosen.start_up)):
+        case = common.set_key(case, key, value)
+    cells = [max(1, round(1e3 * length / chosen.cell)) for length in SIZE]
+    case = common.set_text(case, "cells = [40, 8, 160]", f"cells = {cells}")
+    case = common.set_text(case, 'drag = "gidaspow"', f'drag = "{chosen.drag}"')
+    if chosen.kernel:
+        case = common.set_text(case, "[coupling]\n", f"[coupling]\nkernel_width = {1e-3 * chosen.kernel:g}\n")
+    for number, (x, z) in enumerate(plot.tube_axes(chosen.tubes), 1):
+        old = plot.tube_axes(plot.TUBES)[number - 1]
+        case = common.set_text(case, f'"tube{number}"\ncylinder = {{point = [{old[0]:.3f}, 0.005, {old[1]:.3f}]',
+                               f'"tube{number}"\ncylinder = {{point = [{x:g}, 0.005, {z:g}]')
+    return case
+
+
+def make_job(chosen, out):
+    """Writes script and case into `out`; prints what will be run."""
+    exchange = 2 * chosen.gas_step
+    duration = grains.contact_time(ORIGINAL_RADIUS, DENSITY, chosen.spring, RESTITUTION)
+    step = grains.time_step(duration, exchange)
+    count = round(ORIGINAL_COUNT / chosen.grain**3)
+    print(f"Fluidized bed with four tubes, 50 x 10 x 200 mm, gas cells of {chosen.cell:g} mm")
+    print(f"  grains         {count} of {2e3 * ORIGINAL_RADIUS * chosen.grain:g} mm "
+          f"(l = {chosen.grain:g}) for {ORIGINAL_COUNT / 1e6:g} million of 0.1 mm")
+    print(f"  gas velocity   {chosen.velocity:g} m/s, gas step at most {chosen.gas_step:g} s, "
+          f"exchange with the grains every {exchange:g} s")
+    print(f"  spring         {chosen.spring:g} N/m (paper: 50), contact time {duration:.3g} s, "
+          f"step {step:.4g} s = contact time / {duration / step:.1f}")
+    print(f"  time           {chosen.time:g} s with gas, averaged from {chosen.start_up:g} s")
+    print(f"  ranks          {chosen.ranks}")
+    print(f"  results        {out}")
+    (out / "gas.toml").write_text(case_text(chosen, exchange))
+    (out / "bed.in").write_text((HERE / "bed.in").read_text())
+    left, right, low, high = (1e-3 * value for value in chosen.tubes)
+    sampling = max(1, round(ROW / 5 / step))
+    return pieces.Job(out, "bed.in", {
+        "l": chosen.grain, "count": count, "k": chosen.spring, "mu": chosen.friction, "dt": step,
+        "time": chosen.time, "left": left, "right": right, "low": low, "high": high,
+        "rows": 5, "sampling": sampling, "points": 5 * sampling * round(0.05 / ROW),
+        "case": "gas.toml", "out": ".",
+    }, packing=("l", "count", "k", "mu", "dt", "left", "right", "low", "high"))
 
 
 def main():
     chosen = options()
-    out = pathlib.Path(chosen.out).resolve()
+    out = pathlib.Path(chosen.out or common.ROOT / "out" / "fluidized_bed_tubes").resolve()
     out.mkdir(parents=True, exist_ok=True)
-    for old in ("summary.json", "result.png"):
-        (out / old).unlink(missing_ok=True)
-
-    duration = contact_time(chosen.spring)
-    exchange = 2 * chosen.gas_step
-    step = exchange / math.ceil(exchange / (duration / 8))  # whole steps between exchanges
-    count = round(ORIGINAL_COUNT / chosen.grain**3)
-    start = min(START_UP, 0.5 * chosen.time)
-    print("Fluidized bed with four tubes, 50 x 10 x 200 mm, gas cells of 1.25 mm")
-    print(f"  grains         {count} of {2e3 * ORIGINAL_RADIUS * chosen.grain:g} mm "
-          f"(l = {chosen.grain:g}) for {ORIGINAL_COUNT / 1e6:g} million of 0.1 mm")
-    print(f"  gas velocity   {chosen.velocity:g} m/s, "
-          f"gas step at most {chosen.gas_step:g} s, exchange with the grains every {exchange:g} s")
-    print(f"  spring         {chosen.spring:g} N/m (paper: 50), contact time {duration:.3g} s, "
-          f"step {step:.4g} s = contact time / {duration / step:.1f}")
-    print(f"  time           {chosen.time:g} s with gas, averaged from {start:g} to {chosen.time:g} s")
-    print(f"  ranks          {chosen.ranks}")
-    print(f"  results        {out}\n")
-
-    case = (HERE / "gas.toml").read_text()
-    for key, value in (("superficial_velocity", chosen.velocity), ("exchange_interval", exchange),
-                       ("largest_step", chosen.gas_step), ("average_from", start)):
-        case = common.set_key(case, key, value)
-    (out / "gas.toml").write_text(case)
-    (out / "bed.in").write_text((HERE / "bed.in").read_text())
-
-    common.run_gasgrain(out, "bed.in", chosen.ranks, {
-        "l": chosen.grain, "count": count, "k": chosen.spring, "dt": step, "time": chosen.time,
-        "case": "gas.toml", "out": ".",
-    })
+    job = make_job(chosen, out)
+    pieces.run_piece(job, chosen)
     quantities = common.complete_summary(
         out, lambda summary: add_experiment(summary, chosen.velocity))
+    common.add_quantities(out, heights.alternatives(out, chosen.start_up, SIZE[2]))
+    pieces.add_provenance(job, {"case": CASES.get(chosen.velocity, "1"), "l": chosen.grain,
+                                "paper_l": 5, "grains": job.variables["count"],
+                                "dem_step": job.variables["dt"], "simulated": chosen.time,
+                                "gas_cell": 1e-3 * chosen.cell, "spring": chosen.spring})
     print_comparison(quantities)
-    plot.draw(out, out / "result.png", start)
-    print(f"\npicture   {out / 'result.png'}")
+    if chosen.no_pictures:
+        return
+    plot.draw(out, out / "result.png", chosen.start_up, chosen.tubes)
+    plot.draw_tubes_closely(out, out / "tubes.png", chosen.start_up, chosen.tubes)
+    plot.animate(out, out / "bed.gif", chosen.tubes)
+    print(f"\npictures  {out}/result.png, tubes.png, bed.gif (tubes: gas around them, their loads)")
     print(f"fields    {out}/*.xdmf (open in ParaView)")
+    print(f"loads     {out}/loads.csv: forces of the grains on tubes and walls")
     print(f"summary   {out / 'summary.json'}")
 
 

@@ -1,0 +1,59 @@
+"""Drawing that the examples share: grains and gas in section, curves, animations."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.collections  # noqa: E402
+import matplotlib.pyplot as pyplot  # noqa: E402
+import numpy  # noqa: E402
+from matplotlib.animation import PillowWriter  # noqa: E402
+
+MM = 1e3  # drawings are in millimetres
+
+
+def grains_in_section(axes, grains, depth, colours, limits, colour_map, across="x"):
+    """Grains in a slab depth[0] <= y < depth[1] (m), painted from back to front.
+
+    `colours`: one number per grain, shown between `limits`. `across`: the horizontal direction of
+    the picture; with "y" the slab is one of x.
+    """
+    horizontal = "xy".index(across)
+    position = grains["position"]
+    behind = position[:, 1 - horizontal]
+    order = numpy.argsort(-behind)
+    order = order[(behind[order] >= depth[0]) & (behind[order] < depth[1])]
+    diameter = 2 * MM * grains["radius"][order]
+    circles = matplotlib.collections.EllipseCollection(
+        diameter, diameter, numpy.zeros(len(order)), units="xy",
+        offsets=MM * position[order][:, [horizontal, 2]], transOffset=axes.transData,
+        array=colours[order], cmap=colour_map, edgecolors="0.25", linewidths=0.1)
+    circles.set_clim(*limits)
+    axes.add_collection(circles)
+    return circles
+
+
+def void_fraction_in_section(axes, void, extent, line_colour="white"):
+    """`void`: [z, x], nan where there is no gas; `extent`: x and z, m. The line marks 0.8."""
+    extent = [MM * value for value in extent]
+    picture = axes.imshow(void, origin="lower", extent=extent, cmap="viridis", vmin=0.4, vmax=1.0,
+                          interpolation="nearest")
+    axes.contour(void, levels=[0.8], extent=extent, origin="lower", colors=line_colour,
+                 linewidths=0.8)
+    return picture
+
+
+def frame_section(axes, x, z, title, across="x"):
+    """Axes of a section: limits in m."""
+    axes.set(xlim=[MM * value for value in x], ylim=[MM * value for value in z], aspect="equal",
+             title=title, xlabel=f"{across} / mm")
+    axes.tick_params(length=2)
+
+
+def animate(path, figure, count, draw, frames_per_second=12):
+    """Writes a GIF of `count` pictures; draw(i) changes the figure to number i."""
+    writer = PillowWriter(fps=frames_per_second)
+    with writer.saving(figure, str(path), dpi=80):
+        for number in range(count):
+            draw(number)
+            writer.grab_frame()
+    pyplot.close(figure)
