@@ -22,8 +22,13 @@ def read_frame(file):
         return {name: data[name][...] for name in data if isinstance(data[name], h5py.Dataset)}
 
 
+def read_table(file):
+    """A CSV file with names in its first line and comments (#): column name -> array."""
+    with open(file, newline="", encoding="ascii") as text:
+        rows = list(csv.DictReader(line for line in text if not line.startswith("#")))
+    return {name: numpy.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
 def read_time_series(directory):
     """timeseries.csv: column name -> array."""
-    with open(pathlib.Path(directory) / "timeseries.csv", newline="") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    return {name: numpy.array([float(row[name]) for row in rows]) for name in rows[0]}
+    return read_table(pathlib.Path(directory) / "timeseries.csv")

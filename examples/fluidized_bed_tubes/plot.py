@@ -127,8 +127,16 @@ def mean_gas(directory, start):
     return void / count, flux / count
 
 
+def mean_gas_force(directory, number, start):
+    """Horizontal and vertical force of the gas on a tube, mN."""
+    table = frames.read_table(pathlib.Path(directory) / f"probe_tube{number}.csv")
+    late = table["time_s"] >= start
+    return [1e3 * sum(table[f"{kind}_force_{axis}_N"][late].mean()
+                      for kind in ("pressure", "friction")) for axis in "xz"]
+
+
 def draw_tubes_closely(directory, picture, start, tubes):
-    """Mean gas flow around the tubes and the forces that the grains exert on them."""
+    """Mean gas flow around the tubes and the forces on them."""
     void, flux = mean_gas(directory, start)
     loads = read_loads(directory)
     layers, columns = void.shape
@@ -152,13 +160,16 @@ def draw_tubes_closely(directory, picture, start, tubes):
         force = {axis: 1e3 * loads[f"tube{number}_{axis}"] for axis in "xz"}
         means = [force[axis][late].mean() for axis in "xz"]
         spread = [force[axis][late].std() for axis in "xz"]
-        mean_axes.errorbar(*means, xerr=spread[0], yerr=spread[1], fmt="o", capsize=2, label=name)
+        bars = mean_axes.errorbar(*means, xerr=spread[0], yerr=spread[1], fmt="o", capsize=2,
+                                  label=name)
+        mean_axes.plot(*mean_gas_force(directory, number, start), marker="D", markersize=5,
+                       color=bars[0].get_color(), markerfacecolor="none", linestyle="")
         smooth = numpy.convolve(force["z"], numpy.ones(window) / window, mode="valid")
         axes.plot(loads["time"][window // 2:][:len(smooth)], smooth, linewidth=0.8, label=name)
     mean_axes.axhline(0, color="0.6", linewidth=0.6, zorder=0)
     mean_axes.axvline(0, color="0.6", linewidth=0.6, zorder=0)
     mean_axes.set(xlabel="horizontal / mN", ylabel="vertical / mN",
-                  title="force of the grains: mean and spread")
+                  title="mean forces: grains with\nstandard deviation, gas (open)")
     axes.set(xlabel="time with gas / s", ylabel="vertical / mN",
              title="vertical force of the grains, means over 20 ms")
     axes.axvspan(start, loads["time"][-1], color="0.95", zorder=0)

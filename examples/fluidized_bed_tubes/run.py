@@ -9,7 +9,6 @@ sys.path.insert(0, str(HERE.parent))
 
 import common  # noqa: E402
 import grains  # noqa: E402
-import heights  # noqa: E402
 import pieces  # noqa: E402
 import plot  # noqa: E402
 
@@ -144,7 +143,6 @@ def main():
     pieces.run_piece(job, chosen)
     quantities = common.complete_summary(
         out, lambda summary: add_experiment(summary, chosen.velocity))
-    common.add_quantities(out, heights.alternatives(out, chosen.start_up, SIZE[2]))
     pieces.add_provenance(job, {"case": CASES.get(chosen.velocity, "1"), "l": chosen.grain,
                                 "paper_l": 5, "grains": job.variables["count"],
                                 "dem_step": job.variables["dt"], "simulated": chosen.time,
@@ -157,7 +155,7 @@ def main():
     plot.animate(out, out / "bed.gif", chosen.tubes)
     print(f"\npictures  {out}/result.png, tubes.png, bed.gif (tubes: gas around them, their loads)")
     print(f"fields    {out}/*.xdmf (open in ParaView)")
-    print(f"loads     {out}/loads.csv: forces of the grains on tubes and walls")
+    print(f"loads     {out}/loads.csv: forces of the grains on tubes and walls; probe_tube*.csv: of the gas")
     print(f"summary   {out / 'summary.json'}")
 
 
