@@ -1,0 +1,124 @@
+// What others read from a GasSolver: its fields, the gas as grains see it, fluxes and pressures of
+// sides.
+#include "cfd/gas_state.hpp"
+#include "cfd/halo_exchange.hpp"
+#include "cfd/momentum_budget.hpp"
+#include "coupling/shared/error.hpp"
+
+namespace gasgrain::cfd {
+
+const GasCase& GasSolver::gas_case() const {
+  return state_->gas_case;
+}
+const Decomposition& GasSolver::decomposition() const {
+  return state_->domain.decomposition;
+}
+const WallGeometry& GasSolver::walls() const {
+  return state_->domain.walls;
+}
+const std::vector<SidePart>& GasSolver::side_parts() const {
+  return state_->domain.sides.parts();
+}
+GrainPhase& GasSolver::grains() {
+  return state_->grains;
+}
+const std::vector<BodyLoad>& GasSolver::body_loads() const {
+  return state_->loads.loads();
+}
+double GasSolver::time() const {
+  return state_->time;
+}
+const VectorField& GasSolver::velocity() const {
+  return state_->velocity;
+}
+const Field& GasSolver::pressure() const {
+  return state_->pressure;
+}
+const Field& GasSolver::void_fraction() const {
+  return state_->medium.cell_void_fraction;
+}
+
+void GasSolver::State::sample(VectorField& velocity_at_cells, VectorField& gradient_at_cells,
+                              const VectorField& u, const VectorField& gradient) const {
+  IndexBox cells{{0, 0, 0}, domain.size()};
+  for (int d = 0; d < 3 && domain.any_lenders; ++d) {  // hosts of lenders are also first ghosts
+    if (!domain.decomposition.at_boundary(d, 0)) cells.begin[d] -= 1;
+    if (!domain.decomposition.at_boundary(d, 1)) cells.end[d] += 1;
+  }
+  for (int d = 0; d < 3; ++d) {
+    for (VectorField* result : {&velocity_at_cells, &gradient_at_cells}) {
+      if ((*result)[d].size() != domain.size()) (*result)[d] = Field(domain.size());
+    }
+    const std::ptrdiff_t s = u[d].stride(d);
+    const double* lower = domain.walls.lower_share[d].data();
+    const double* upper = domain.walls.upper_share[d].data();
+    for_box(cells, u[d], [=, u = u[d].data(), result = velocity_at_cells[d].data()](auto n) {
+      const bool free = lower[n] + upper[n] > 0.0;
+      const double mean = lower[n] * u[n] + upper[n] * u[n + s];
+      result[n] = free ? mean : 0.5 * (u[n] + u[n + s]);
+    });
+    for_box(cells, u[d], [=, g = gradient[d].data(), result = gradient_at_cells[d].data()](auto n) {
+      result[n] = lower[n] * g[n] + upper[n] * g[n + s];
+    });
+    for (const Lender& lender : domain.lenders[d]) {
+      velocity_at_cells[d][lender.cell] = velocity_at_cells[d][lender.host];
+      gradient_at_cells[d][lender.cell] = gradient_at_cells[d][lender.host];
+    }
+  }
+  Field* const results[] = {&velocity_at_cells[0], &velocity_at_cells[1], &velocity_at_cells[2],
+                            &gradient_at_cells[0], &gradient_at_cells[1], &gradient_at_cells[2]};
+  fill_ghosts(domain.decomposition, results);
+}
+
+void GasSolver::sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const {
+  state_->sample(velocity, pressure_gradient, state_->velocity,
+                 state_->projection.pressure_gradient());
+}
+
+void GasSolver::start_means() {
+  state_->means.start(state_->domain.size());
+}
+
+void GasSolver::sample_means_at_cells(VectorField& velocity, VectorField& pressure_gradient) {
+  IntervalMeans& means = state_->means;
+  means.finish(state_->medium);
+  state_->sample(velocity, pressure_gradient, means.velocity(), means.pressure_gradient());
+}
+
+double GasSolver::side_pressure(int direction, int side) const {
+  const GasDomain& domain = state_->domain;
+  GASGRAIN_ASSERT(!domain.is_periodic(direction));
+  const double force = sum_over_ranks(
+      domain.decomposition, side_force(domain, state_->pressure,
+                                       state_->projection.pressure_gradient(), direction, side));
+  const double area = side_open_area(direction, side);
+  return area > 0.0 ? force / area : 0.0;
+}
+
+double GasSolver::side_open_area(int direction, int side) const {
+  const GasDomain& domain = state_->domain;
+  return sum_over_ranks(domain.decomposition, cfd::side_open_area(domain, direction, side));
+}
+
+double GasSolver::side_flux(int direction, int side) const {
+  const int cells = decomposition().grid().cells[direction];
+  return sum_over_ranks(decomposition(), plane_flux(direction, side == 0 ? 0 : cells));
+}
+
+double GasSolver::plane_flux(int direction, int plane) const {
+  const GasDomain& domain = state_->domain;
+  const Index3& cells = domain.decomposition.grid().cells;
+  const bool joined = domain.is_periodic(direction) && plane == cells[direction];
+  const int local = (joined ? 0 : plane) - domain.decomposition.block().lower[direction];
+  if (local < 0 || local >= owned_faces(domain.decomposition, direction)[direction]) return 0.0;
+  double flux = 0.0;
+  for_each_in(plane_of(domain, direction, local), [&](int i, int j, int k) {
+    const std::ptrdiff_t n = domain.open_share.index(i, j, k);
+    flux += domain.walls.open_area[direction][n] *
+            face_void_fraction(state_->medium, direction, n) * state_->velocity[direction][n] *
+            domain.face_area(direction);
+  });
+  return flux;
+}
+
+}  // namespace gasgrain::cfd

@@ -1,0 +1,64 @@
+// What a GasSolver holds from step to step, and the parts of its step. For the files that implement
+// it: gas_solver.cpp (the step), gas_state.cpp (walls, restarts), gas_sampling.cpp (what others
+// read).
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "cfd/body_loads.hpp"
+#include "cfd/driving_gradient.hpp"
+#include "cfd/face_medium.hpp"
+#include "cfd/gas_domain.hpp"
+#include "cfd/gas_solver.hpp"
+#include "cfd/immersed_boundary.hpp"
+#include "cfd/interval_means.hpp"
+#include "cfd/momentum_slope.hpp"
+#include "cfd/projection.hpp"
+#include "cfd/volume_forcing.hpp"
+
+namespace gasgrain::cfd {
+
+struct GasSolver::State {
+  State(const GasCase& given, MPI_Comm communicator);
+
+  void set_velocity(const std::function<Vec3(const Vec3&)>& function);
+  bool move_bodies(double new_time);  // the shape of some body has moved
+  void follow_walls(const VectorField& took_part);
+  void evaluate_slope();
+  void predict(double dt, const AdamsBashforth& weights);
+  // Steps 1 to 5 with the slopes at hand.
+  void take_stage(StepReport& report, PassClock& clock, double dt, const AdamsBashforth& weights,
+                  const Field* void_before);
+  void measure_loads(MomentumBudget& budget, double dt, const AdamsBashforth& weights);
+  void check_finite(double dt, double speed_before) const;
+  // Face values as the grains of a cell see them.
+  void sample(VectorField& velocity, VectorField& pressure_gradient, const VectorField& u,
+              const VectorField& gradient) const;
+  void visit(StateArchive& archive);
+  void visit_grains(StateArchive& archive);
+  void rebuild();
+
+  GasCase gas_case;
+  GasDomain domain;
+  FaceMedium medium;
+  GrainPhase grains;
+  ImmersedBoundary immersed_boundary;
+  VolumeForcing volume_forcing;  // takes its place when the walls span bodies
+  BodyLoads loads;
+  Projection projection;
+  DrivingGradient driving;
+  VectorField velocity;
+  VectorField start;           // velocity before the first stage of two
+  Vec3 speeds = Vec3::Zero();  // largest |u| per direction of all ranks, m/s
+  Field pressure;
+  Field old_void_fraction;  // of the cells at the start of the step
+  MomentumSlope slope, old_slope;
+  std::optional<Vec3> momentum;  // of this rank's gas, while it is what the last step left, N s
+  IntervalMeans means;
+  double time = 0.0, previous_dt = 0.0;
+  double body_clock = 0.0;                      // s, of moving bodies at time = 0
+  Vec3 momentum_of_moved_walls = Vec3::Zero();  // change of this rank's gas momentum by them, N s
+};
+
+}  // namespace gasgrain::cfd
