@@ -1,5 +1,6 @@
 #include "cfd/field_output.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "cfd/loops.hpp"
@@ -8,42 +9,58 @@ namespace gasgrain::cfd {
 
 namespace {
 
-std::vector<double> owned_values(const Field& field) {
+// term(storage index, component) of the owned cells, components adjacent.
+template <class Term>
+std::vector<double> owned_values(const Field& like, int components, const Term& term) {
   std::vector<double> values;
-  for_each_cell(field.size(), [&](int i, int j, int k) { values.push_back(field(i, j, k)); });
+  values.reserve(like.count() * components);
+  for_each_cell(like.size(), [&](int i, int j, int k) {
+    const std::ptrdiff_t n = like.index(i, j, k);
+    for (int d = 0; d < components; ++d) values.push_back(term(n, d));
+  });
   return values;
 }
 
-// Mean of the two faces of each direction.
-std::vector<double> centred_velocity(const VectorField& velocity) {
-  std::vector<double> values;
-  for_each_cell(velocity[0].size(), [&](int i, int j, int k) {
-    for (int d = 0; d < 3; ++d) {
-      const std::ptrdiff_t n = velocity[d].index(i, j, k);
-      values.push_back(0.5 * (velocity[d][n] + velocity[d][n + velocity[d].stride(d)]));
-    }
-  });
-  return values;
+// velocity(storage index, component) in cells.
+template <class Velocity>
+void write(FrameWriter& writer, const GasSolver& solver, double time, const Velocity& velocity) {
+  const Grid& grid = solver.decomposition().grid();
+  const Block& block = solver.decomposition().block();
+  GridFrame frame{.cells = grid.cells,
+                  .lower = grid.lower,
+                  .spacing = grid.spacing(),
+                  .block_lower = block.lower,
+                  .block_cells = block.size,
+                  .arrays = {}};
+  const std::vector<std::string>& chosen = solver.gas_case().output.fields;
+  std::vector<std::vector<double>> values;  // alive until the frame is written
+  const auto add = [&](const char* name, int components, const auto& term) {
+    if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) return;
+    values.push_back(owned_values(solver.pressure(), components, term));
+    frame.arrays.push_back({name, components, values.back().data()});
+  };
+  const auto value_of = [](const Field& field) {
+    return [&field](std::ptrdiff_t n, int) { return field[n]; };
+  };
+  add("velocity", 3, velocity);
+  add("pressure", 1, value_of(solver.pressure()));
+  add("void_fraction", 1, value_of(solver.void_fraction()));
+  add("wall_fraction", 1, value_of(solver.walls().wall_fraction));
+  writer.write(time, frame);
 }
 
 }  // namespace
 
 void write_frame(FrameWriter& writer, const GasSolver& solver, double time) {
-  const Grid& grid = solver.decomposition().grid();
-  const Block& block = solver.decomposition().block();
-  const std::vector<double> velocity = centred_velocity(solver.velocity());
-  const std::vector<double> pressure = owned_values(solver.pressure());
-  const std::vector<double> void_fraction = owned_values(solver.void_fraction());
-  const std::vector<double> wall_fraction = owned_values(solver.walls().wall_fraction);
-  writer.write(time, GridFrame{.cells = grid.cells,
-                               .lower = grid.lower,
-                               .spacing = grid.spacing(),
-                               .block_lower = block.lower,
-                               .block_cells = block.size,
-                               .arrays = {{"velocity", 3, velocity.data()},
-                                          {"pressure", 1, pressure.data()},
-                                          {"void_fraction", 1, void_fraction.data()},
-                                          {"wall_fraction", 1, wall_fraction.data()}}});
+  write(writer, solver, time, [&](std::ptrdiff_t n, int d) {
+    const Field& u = solver.velocity()[d];
+    return 0.5 * (u[n] + u[n + u.stride(d)]);
+  });
+}
+
+void write_frame(FrameWriter& writer, const GasSolver& solver, double time,
+                 const VectorField& velocity_in_cells) {
+  write(writer, solver, time, [&](std::ptrdiff_t n, int d) { return velocity_in_cells[d][n]; });
 }
 
 }  // namespace gasgrain::cfd

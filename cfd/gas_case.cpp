@@ -139,11 +139,30 @@ RunControl read_run(const ConfigTable& table) {
   return run;
 }
 
+std::vector<std::string> read_output_fields(const ConfigTable& table) {
+  const std::vector<std::string> fields = table.texts("fields");
+  const std::string remedy =
+      "; give some of \"velocity\", \"pressure\", \"void_fraction\" and "
+      "\"wall_fraction\"";
+  if (fields.empty()) table.fail("fields", "is empty" + remedy);
+  for (auto field = fields.begin(); field != fields.end(); ++field) {
+    const auto& names = output_field_names;
+    if (std::find(names.begin(), names.end(), *field) == names.end()) {
+      table.fail("fields", "has no field '" + *field + "'" + remedy);
+    }
+    if (std::find(fields.begin(), field, *field) != field) {
+      table.fail("fields", "names '" + *field + "' twice" + remedy);
+    }
+  }
+  return fields;
+}
+
 Output read_output(const ConfigTable& table) {
-  expect_only(table, {"directory", "interval"});
+  expect_only(table, {"directory", "interval", "fields"});
   Output output;
   output.directory = table.text_or("directory", output.directory);
   output.interval = table.number_or("interval", output.interval, Range::non_negative());
+  if (table.has("fields")) output.fields = read_output_fields(table);
   return output;
 }
 

@@ -1,6 +1,7 @@
 // Everything a gas case file states: docs/case_file.md.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -65,9 +66,14 @@ struct RunControl {                  // stand-alone solver
   std::string restart;  // checkpoint to continue from: a path, "latest" or "" (start anew)
 };
 
+// Fields that a frame may hold.
+inline constexpr std::array output_field_names{"velocity", "pressure", "void_fraction",
+                                               "wall_fraction"};
+
 struct Output {
   std::string directory;  // "" = no files
   double interval = 0.0;  // s of simulated time between frames; 0 = only the last
+  std::vector<std::string> fields{output_field_names.begin(), output_field_names.end()};
 };
 
 struct GasCase {

@@ -17,7 +17,7 @@ namespace gasgrain::cfd {
 namespace {
 
 constexpr const char* format = "gasgrain gas checkpoint";
-constexpr std::int32_t version = 1;
+constexpr std::int32_t version = 2;
 constexpr double same_fraction = 1e-9;  // of a cell; other ranks round alike
 
 const std::vector<std::string> fixed_sections{"grid.", "gas.", "body[", "fixed_bed."};
@@ -127,6 +127,7 @@ void RunCounters::visit_state(StateArchive& archive) {
   archive.number_of("shortened", shortened);
   archive.number("largest_divergence", largest_divergence);
   archive.number("largest_removed_mean", largest_removed_mean);
+  archive.number("largest_swept_imbalance", largest_swept_imbalance);
   for (int n = 0; n < step_limit_count; ++n) {
     archive.number_of(std::string("limited_by_") + name_of(static_cast<StepLimit>(n)), limited[n]);
   }

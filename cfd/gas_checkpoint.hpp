@@ -24,6 +24,7 @@ struct RunCounters {
   long backflow_steps = 0;                       // steps with gas entering through outlets
   double largest_backflow = 0.0;                 // m^3/s
   double largest_divergence = 0.0, largest_removed_mean = 0.0;
+  double largest_swept_imbalance = 0.0;  // see StepReport
 
   void visit_state(StateArchive& archive);
 };

@@ -185,6 +185,8 @@ void GasRun::record(const StepReport& report, double dt) {
   counters_.largest_backflow = std::max(counters_.largest_backflow, report.backflow);
   if (report.backflow > 0.0) ++counters_.backflow_steps;
   counters_.largest_removed_mean = std::max(counters_.largest_removed_mean, report.removed_mean);
+  counters_.largest_swept_imbalance =
+      std::max(counters_.largest_swept_imbalance, report.swept_imbalance);
   if (case_.run.step > 0.0 && dt < case_.run.step && !at_end()) ++counters_.shortened;
   display_.count(report);
   if (series_) series_->write(solver_, report, dt);

@@ -19,6 +19,9 @@ const WallGeometry& GasSolver::walls() const {
 const std::vector<SidePart>& GasSolver::side_parts() const {
   return state_->domain.sides.parts();
 }
+bool GasSolver::has_motion() const {
+  return state_->domain.has_motion;
+}
 GrainPhase& GasSolver::grains() {
   return state_->grains;
 }

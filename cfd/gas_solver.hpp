@@ -75,6 +75,7 @@ class GasSolver {
   const Decomposition& decomposition() const;
   const WallGeometry& walls() const;
   const std::vector<SidePart>& side_parts() const;  // of the sides of the grid, then the patches
+  bool has_motion() const;                          // some body that acts on the gas ever moves
 
   // Sets the velocity of all faces that take part from a function of position, m/s; the next step
   // is the first of a run (Euler's). At construction the case's initial velocity is set.

@@ -159,6 +159,14 @@ void RunDisplay::finish(const StepReport& report, const RunCounters& counters,
       {"wall_time_boundary", times.boundary, "s", {}, {}, "mean of the ranks"},
       {"wall_time_pressure", times.pressure, "s", {}, {}, "mean of the ranks"},
       {"wall_time_correction", times.correction, "s", {}, {}, "mean of the ranks"}};
+  if (solver_.has_motion()) {
+    quantities.push_back({"largest_swept_imbalance",
+                          counters.largest_swept_imbalance,
+                          "-",
+                          {},
+                          {},
+                          "of sealed regions with moving bodies"});
+  }
   if (talks_) std::printf("\nresult at %.6g s\n", solver_.time());
   for (const SideState& side : sides) {
     if (!side.periodic) {
@@ -176,6 +184,10 @@ void RunDisplay::finish(const StepReport& report, const RunCounters& counters,
     std::printf("  largest divergence    %.2e of a cell's gas in a step\n",
                 counters.largest_divergence);
     std::printf("  largest removed mean  %.2e\n", counters.largest_removed_mean);
+    if (solver_.has_motion()) {
+      std::printf("  swept imbalance       up to %.2e of what bodies displace, evened out\n",
+                  counters.largest_swept_imbalance);
+    }
     std::printf("  steps                 %ld, %.1f pressure iterations each\n", counters.steps,
                 double(counters.iterations) / steps);
     if (counters.fallbacks > 0) {

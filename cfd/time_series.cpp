@@ -12,6 +12,7 @@ TimeSeries::TimeSeries(const std::string& path, const GasSolver& solver,
   std::vector<std::string> columns{
       "time_s",     "step_s",       "courant_number",   "pressure_iterations", "pressure_residual",
       "divergence", "removed_mean", "largest_speed_m_s"};
+  if (solver.has_motion()) columns.push_back("swept_imbalance");
   for (const SideState& side : side_states(solver)) {
     if (!side.periodic) columns.push_back(side.name + "_pressure_Pa");
     columns.push_back(side.name + "_flux_m3_s");
@@ -30,6 +31,7 @@ void TimeSeries::write(const GasSolver& solver, const StepReport& report, double
                           report.divergence,
                           report.removed_mean,
                           report.largest_speed};
+  if (solver.has_motion()) row.push_back(report.swept_imbalance);
   for (const SideState& side : side_states(solver)) {
     if (!side.periodic) row.push_back(side.pressure);
     row.push_back(side.flux);

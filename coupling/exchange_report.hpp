@@ -39,6 +39,7 @@ struct ExchangeReport {
   int pressure_fallbacks = 0;           // gas steps whose pressure the fallback had to solve
   double divergence = 0.0;              // largest of the gas steps, see cfd::StepReport
   double removed_mean = 0.0;            // likewise
+  double swept_imbalance = 0.0;         // likewise
   double interval = 0.0;                // s
   cfd::MomentumBudget gas_momentum;     // N s, over the interval
   Vec3 force_on_grains = Vec3::Zero();  // N, sum of the new forces

@@ -252,6 +252,7 @@ void GasCoupling::advance_gas(double interval) {
     report_.pressure_fallbacks += step.pressure.fallbacks;
     report_.divergence = std::max(report_.divergence, step.divergence);
     report_.removed_mean = std::max(report_.removed_mean, step.removed_mean);
+    report_.swept_imbalance = std::max(report_.swept_imbalance, step.swept_imbalance);
     add(report_.gas_momentum, step.momentum);
   }
   if (steps > 1)

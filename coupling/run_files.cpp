@@ -5,7 +5,7 @@
 #include <array>
 #include <filesystem>
 
-#include "cfd/loops.hpp"
+#include "cfd/field_output.hpp"
 #include "coupling/files/collective_error.hpp"
 #include "coupling/shared/error.hpp"
 
@@ -17,17 +17,6 @@ int rank_in(MPI_Comm communicator) {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
   return rank;
-}
-
-// Owned cells of some fields, the values of a cell adjacent.
-std::vector<double> owned_values(const std::vector<const cfd::Field*>& fields) {
-  const cfd::Index3 size = fields[0]->size();
-  std::vector<double> values;
-  values.reserve(fields.size() * size[0] * size[1] * size[2]);
-  cfd::for_each_cell(size, [&](int i, int j, int k) {
-    for (const cfd::Field* field : fields) values.push_back((*field)(i, j, k));
-  });
-  return values;
 }
 
 }  // namespace
@@ -88,27 +77,11 @@ void RunFiles::add_profile(double time, const BedLayers& layers) {
 }
 
 void RunFiles::add_frame(double time, const cfd::GasSolver& gas, const GrainState& grains) {
-  const cfd::Decomposition& decomposition = gas.decomposition();
-  const cfd::Index3 size = decomposition.block().size;
+  const cfd::Index3 size = gas.decomposition().block().size;
   cfd::VectorField velocity, gradient;
   for (int d = 0; d < 3; ++d) velocity[d] = gradient[d] = cfd::Field(size);
   gas.sample_at_cells(velocity, gradient);
-  const auto velocities = owned_values({&velocity[0], &velocity[1], &velocity[2]});
-  const auto pressures = owned_values({&gas.pressure()});
-  const auto void_fractions = owned_values({&gas.void_fraction()});
-  const auto wall_fractions = owned_values({&gas.walls().wall_fraction});
-
-  GridFrame cells;
-  cells.cells = decomposition.grid().cells;
-  cells.lower = decomposition.grid().lower;
-  cells.spacing = decomposition.grid().spacing();
-  cells.block_lower = decomposition.block().lower;
-  cells.block_cells = size;
-  cells.arrays = {{"velocity", 3, velocities.data()},
-                  {"pressure", 1, pressures.data()},
-                  {"void_fraction", 1, void_fractions.data()},
-                  {"wall_fraction", 1, wall_fractions.data()}};
-  gas_frames_.write(time, cells);
+  cfd::write_frame(gas_frames_, gas, time, velocity);
 
   PointFrame points;
   points.count = grains.ids.size();

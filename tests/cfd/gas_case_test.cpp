@@ -93,6 +93,19 @@ TEST(GasCase, values_out_of_range_are_errors) {
   EXPECT_NE(error_of(with("pressure_tolerance = 1e-8", "pressure_tolerance = 0")), "");
 }
 
+TEST(GasCase, output_fields_are_known_ones_named_once) {
+  EXPECT_EQ(read(complete).output.fields.size(), 4U);
+  const auto output = [](const std::string& fields) {
+    return complete + "[output]\nfields = " + fields + "\n";
+  };
+  EXPECT_EQ(read(output("['pressure', 'velocity']")).output.fields,
+            (std::vector<std::string>{"pressure", "velocity"}));
+  EXPECT_NE(error_of(output("['presure']")).find("output.fields: has no field 'presure'"),
+            std::string::npos);
+  EXPECT_NE(error_of(output("['pressure', 'pressure']")).find("twice"), std::string::npos);
+  EXPECT_NE(error_of(output("[]")).find("is empty"), std::string::npos);
+}
+
 TEST(GasCase, density_scaling_belongs_to_volume_forcing) {
   const std::string forcing = "[numerics]\nimmersed_boundary = \"volume-forcing\"\n";
   const Numerics n = read(with("[numerics]\n", forcing + "density_scaling = 500\n")).numerics;

@@ -46,6 +46,12 @@ GasCase stirred_vessel() {
   return c;
 }
 
+GasCase two_stage_vessel() {
+  GasCase c = open_vessel();
+  c.numerics.time_scheme = TimeScheme::rk2;
+  return c;
+}
+
 struct Scene {
   const char* name;
   GasCase gas_case;
@@ -56,7 +62,8 @@ std::vector<Scene> scenes() {
   return {{"open_with_grains", open_vessel(), true},
           {"open", open_vessel(), false},
           {"sealed_with_grains", sealed_vessel(), true},
-          {"moving_body", stirred_vessel(), false}};
+          {"moving_body", stirred_vessel(), false},
+          {"two_stages", two_stage_vessel(), true}};
 }
 
 // Steps of different length, so that the weights of the old slope matter.

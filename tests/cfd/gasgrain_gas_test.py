@@ -71,6 +71,15 @@ def good_run_writes_its_files(program, directory):
           str(quantities))
 
 
+def a_frame_holds_the_chosen_fields(program, directory):
+    text = CASE.replace("interval = 5e-4", 'fields = ["pressure"]')
+    result = run(program, directory, text, ranks=2)
+    check(result.returncode == 0, result.stderr)
+    with open(os.path.join(directory, "out", "gas.xdmf")) as file:
+        index = file.read()
+    check('Name="pressure"' in index and 'Name="velocity"' not in index, index)
+
+
 BAD = [
     ("an unknown key", ("density", "densty"), "did you mean 'density'"),
     ("a value out of range", ("density = 10", "density = -10"), "gas.density: is -10"),
@@ -125,7 +134,8 @@ def a_missing_file_is_an_error(program, directory):
 
 def main():
     program = (sys.argv[1], sys.argv[2])
-    for test in (good_run_writes_its_files, bad_runs_say_why_once,
+    for test in (good_run_writes_its_files, a_frame_holds_the_chosen_fields,
+                 bad_runs_say_why_once,
                  failing_steps_name_step_cell_field_and_cause, a_missing_file_is_an_error):
         with tempfile.TemporaryDirectory() as directory:
             test(program, directory)

@@ -41,8 +41,14 @@ std::string refusal_of(const GasCase& c) {
   return "";
 }
 
-TEST(VolumeForcing, closes_the_momentum_budget_and_the_loads) {
-  GasSolver solver(column(), MPI_COMM_WORLD);
+class VolumeForcingOf : public ::testing::TestWithParam<TimeScheme> {};
+INSTANTIATE_TEST_SUITE_P(Schemes, VolumeForcingOf,
+                         ::testing::Values(TimeScheme::ab2, TimeScheme::rk2));
+
+TEST_P(VolumeForcingOf, closes_the_momentum_budget_and_the_loads) {
+  GasCase gas_case = column();
+  gas_case.numerics.time_scheme = GetParam();
+  GasSolver solver(gas_case, MPI_COMM_WORLD);
   set_moving_heap(solver, 0.0, 0.3, 40.0);
   solver.accept_void_fraction_as_old();
   for (int n = 1; n <= 3; ++n) {
