@@ -170,16 +170,19 @@ void FixWallSdf::pre_neighbor() {
     next_reneighbor = update->ntimestep + std::max(1, static_cast<int>(way / (speed * update->dt)));
   }
   candidates_.clear();
+  std::vector<Vec3> springs;
   for (int i = 0; i < atom->nlocal; ++i) {
-    if (!(atom->mask[i] & groupbit)) continue;
     const double reach = atom->radius[i] + neighbor->skin + way;
-    if (wall_.distance(ConstColumn(atom->x[i])) < reach) {
+    if ((atom->mask[i] & groupbit) && wall_.distance(ConstColumn(atom->x[i])) < reach) {
       candidates_.push_back(i);
+      springs.push_back(spring_of(i));
+      place_[i] = static_cast<int>(springs.size()) - 1;
     } else {
-      displacement_[i].setZero();
+      place_[i] = -1;
       wall_.forget(atom->tag[i]);
     }
   }
+  springs_ = std::move(springs);
 }
 
 void FixWallSdf::post_force(int) {
@@ -205,7 +208,8 @@ void FixWallSdf::record_step(const WallLoad& load) {
 
 template <TangentialModel tangential>
 void FixWallSdf::apply_contacts(const TangentialStep& step) {
-  for (const int i : candidates_) {
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const int i = candidates_[c];
     const GrainAtWall grain{.tag = atom->tag[i],
                             .type = atom->type[i],
                             .radius = atom->radius[i],
@@ -213,7 +217,7 @@ void FixWallSdf::apply_contacts(const TangentialStep& step) {
                             .position = ConstColumn(atom->x[i]),
                             .velocity = ConstColumn(atom->v[i]),
                             .spin = ConstColumn(atom->omega[i])};
-    const WallTouch touch = wall_.touch<tangential>(grain, displacement_[i], step, load_);
+    const WallTouch touch = wall_.touch<tangential>(grain, springs_[c], step, load_);
     if (!touch.touches) continue;
     Column(atom->f[i]) += touch.force;
     Column(atom->torque[i]) += touch.torque;
@@ -234,20 +238,21 @@ double FixWallSdf::compute_vector(int index) {
 }
 
 void FixWallSdf::grow_arrays(int count) {
-  displacement_.resize(count, Vec3::Zero());
+  place_.reserve(count);  // as many as LIGGGHTS has room for, and no more
+  place_.resize(count, -1);
 }
 
 void FixWallSdf::copy_arrays(int from, int to, int) {
-  displacement_[to] = displacement_[from];
+  place_[to] = place_[from];
 }
 
 void FixWallSdf::set_arrays(int i) {
-  displacement_[i].setZero();
+  place_[i] = -1;
 }
 
 // The spring of a single contact, the number of springs of several contacts, and each of those.
 std::vector<double> FixWallSdf::packed_springs(int i) const {
-  const Vec3& own = displacement_[i];
+  const Vec3 own = spring_of(i);
   std::vector<double> values{own[0], own[1], own[2], 0.0};
   if (const std::vector<EdgeSpring>* springs = wall_.edge_springs(atom->tag[i])) {
     values[3] = static_cast<double>(springs->size());
@@ -259,7 +264,8 @@ std::vector<double> FixWallSdf::packed_springs(int i) const {
 }
 
 void FixWallSdf::unpack_springs(int i, const double* values) {
-  displacement_[i] = ConstColumn(values);
+  place_[i] = static_cast<int>(springs_.size());
+  springs_.push_back(ConstColumn(values));
   std::vector<EdgeSpring> springs(static_cast<std::size_t>(values[3]));
   for (std::size_t n = 0; n < springs.size(); ++n)
     springs[n] = {ConstColumn(values + 4 + 6 * n), ConstColumn(values + 7 + 6 * n)};
@@ -302,8 +308,8 @@ void FixWallSdf::unpack_restart(int i, int nth) {
 }
 
 double FixWallSdf::memory_usage() {
-  return static_cast<double>(displacement_.capacity() * sizeof(Vec3) +
-                             candidates_.capacity() * sizeof(int));
+  return static_cast<double>(springs_.capacity() * sizeof(Vec3) +
+                             (candidates_.capacity() + place_.capacity()) * sizeof(int));
 }
 
 }  // namespace gasgrain::plugins

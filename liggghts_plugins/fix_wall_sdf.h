@@ -72,7 +72,7 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   // Fastest that the wall sweeps through the simulation box, m/s.
   double fastest_sweep() const;
   const std::vector<int>& candidates() const { return candidates_; }  // ascending local indices
-  std::vector<Vec3>& displacements() { return displacement_; }        // of every local atom, m
+  std::vector<Vec3>& springs() { return springs_; }                   // tangential, of these, m
 
   // Makes `load` that of the present step; not in the set-up of a run.
   void record_step(const WallLoad& load);
@@ -83,6 +83,7 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   void refuse_unresolved_grains() const;
   template <TangentialModel tangential>
   void apply_contacts(const TangentialStep& step);
+  Vec3 spring_of(int i) const { return place_[i] < 0 ? Vec3(Vec3::Zero()) : springs_[place_[i]]; }
   std::vector<double> packed_springs(int i) const;
   void unpack_springs(int i, const double* values);
 
@@ -91,8 +92,9 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   ContactSettings settings_;
   bool own_exponent_ = false;
 
-  std::vector<Vec3> displacement_;  // tangential spring of each local atom, m
-  std::vector<int> candidates_;     // local atoms that may touch until the next reneighbouring
+  std::vector<int> candidates_;  // local atoms that may touch until the next reneighbouring
+  std::vector<Vec3> springs_;    // tangential springs of the candidates, m; then of newcomers
+  std::vector<int> place_;       // of an atom's spring in springs_; -1: none
   WallLoad load_;
   std::array<double, 8> totals_{};  // over all ranks
   bool totals_valid_ = false;

@@ -15,16 +15,25 @@ int blocks_of(int grains) {
   return (grains + grains_per_block - 1) / grains_per_block;
 }
 
+// Room for `count` entries and a few more, instead of up to twice as many: lists of all pairs are
+// most of the engine's memory, and their lengths hardly change.
+template <class Entry>
+void make_room(std::vector<Entry>& entries, std::size_t count) {
+  if (count > entries.capacity()) entries.reserve(count + count / 16);
+}
+
 }  // namespace
 
-void ContactList::start(int local_count, int dummy) {
+void ContactList::start(int local_count, int dummy, std::size_t candidates) {
   local_count_ = local_count;
   dummy_ = dummy;
   widest_pair_ = 0;
   row_begin_.assign(1, 0);
-  row_begin_.reserve(local_count + 1);
+  make_room(row_begin_, local_count + 1);
   candidate_first_.clear();
   candidate_second_.clear();
+  make_room(candidate_first_, candidates + group_size);
+  make_room(candidate_second_, candidates + group_size);
   near_begin_.assign(blocks_of(local_count) + 1, 0);
   near_first_.clear();
   near_second_.clear();
@@ -50,6 +59,10 @@ void ContactList::find_near_pairs(const GrainRecord* grains, double margin) {
   near_first_.clear();
   near_second_.clear();
   near_candidate_.clear();
+  const std::size_t most =
+      candidate_first_.size() + static_cast<std::size_t>(block_count()) * group_size;
+  for (std::vector<int>* list : {&near_first_, &near_second_, &near_candidate_})
+    make_room(*list, most);
   for (int block = 0; block < block_count(); ++block) {
     near_begin_[block] = static_cast<int>(near_first_.size());
     const int begin = row_begin_[block * grains_per_block];
@@ -83,10 +96,14 @@ void ContactList::pad_to_group() {
 void ContactList::keep_touching() {
   if (touching_is_current_) return;
   touching_.clear();
+  std::size_t count = 0;
+  for (const unsigned char set : touched_) count += __builtin_popcount(set);
+  make_room(touching_, count);
   for (std::size_t group = 0; group < touched_.size(); ++group) {
     for (unsigned set = touched_[group]; set; set &= set - 1u) {
       const std::size_t p = group * group_size + __builtin_ctz(set);
-      touching_.push_back({near_candidate_[p], springs_[p]});
+      const double* spring = springs_[p].displacement;
+      touching_.push_back({near_candidate_[p], {spring[0], spring[1], spring[2]}});
     }
   }
   touching_is_current_ = true;
@@ -94,6 +111,7 @@ void ContactList::keep_touching() {
 
 // A touching pair that is not near any more has parted since.
 void ContactList::restore_touching() {
+  make_room(springs_, near_first_.size());
   springs_.assign(near_first_.size(), SpringRecord{});
   touched_.assign(near_first_.size() / group_size, 0);
   std::size_t p = 0;
@@ -101,7 +119,7 @@ void ContactList::restore_touching() {
     while (p < near_candidate_.size() && near_candidate_[p] < pair.candidate) ++p;
     if (p == near_candidate_.size()) break;
     if (near_candidate_[p] != pair.candidate) continue;
-    springs_[p] = pair.spring;
+    std::copy_n(pair.spring, 3, springs_[p].displacement);
     touched_[p / group_size] |= static_cast<unsigned char>(1u << (p % group_size));
   }
 }

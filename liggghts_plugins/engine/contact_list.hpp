@@ -6,6 +6,7 @@
 // unless the pair touched in the last step.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "liggghts_plugins/engine/kernel.hpp"
@@ -15,15 +16,16 @@ namespace gasgrain::plugins {
 // A touching pair: its place in the list of candidates and its spring.
 struct TouchingPair {
   int candidate;
-  SpringRecord spring;
+  double spring[3];  // m
 };
 
 class ContactList {
  public:
   // Starts an empty list of candidates for grains 0 .. local_count - 1. Then, for every grain in
   // order: end_row() after add_candidate() for each of its partners, which have larger indices.
-  // `dummy` and dummy + 1 are indices of two grains that never touch.
-  void start(int local_count, int dummy);
+  // `dummy` and dummy + 1 are indices of two grains that never touch. Room is
+  // made for that many candidates.
+  void start(int local_count, int dummy, std::size_t candidates = 0);
   void add_candidate(int second) { candidate_second_.push_back(second); }
   void end_row();
 

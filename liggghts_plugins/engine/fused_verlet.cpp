@@ -17,11 +17,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "coupling/shared/error.hpp"
 #include "liggghts_plugins/contact_statistics.hpp"
 #include "liggghts_plugins/engine/engine_mode.hpp"
 #include "liggghts_plugins/engine/primitive_wall_loads.hpp"
+#include "liggghts_plugins/engine/wide_bins.hpp"
 #include "liggghts_plugins/private_member.hpp"
 
 namespace gasgrain::plugins {
@@ -58,6 +60,8 @@ void FusedVerlet::setup() {
   print_plan();
   if (engine_mode(*lmp) == EngineMode::fused && !plan_.fused())
     throw UserError("gasgrain_engine fused: " + plan_.text());
+  std::optional<WideBins> bins;
+  if (plan_.fused()) bins.emplace(*lmp);
   Verlet::setup();
   lists_are_fresh_ = true;
 }
@@ -131,17 +135,21 @@ void FusedVerlet::fused_step() {
     ghosts_.update_ghosts(loop_);
     timer->stamp(TIME_COMM);
   }
-  force_pass(who_looks_at_the_end());
+  const StepEnd end = who_looks_at_the_end();
+  force_pass(end);
   timer->stamp(TIME_PAIR);
-  end_step();
+  act_at_the_end(end);
+  if (closed_ && quit_requested_) stop_ = true;
+  if (update->ntimestep == output->next) write_output();
 }
 
 // The first half of Verlet's step for grains whose last step has ended: as fix nve/sphere does it,
 // on the atom arrays, which may have been changed since.
 void FusedVerlet::open_step() {
   load_state();
+  streams_.hold(loop_, update->ntimestep);
   const double half = 0.5 * update->dt * force->ftm2v;
-  double fastest = 0.0;
+  double fastest = streams_.square_speed();
   for (int i = 0; i < atom->nlocal; ++i) {
     if (loop_.is_fixed(i)) continue;
     GrainRecord& grain = loop_.grain(i);
@@ -152,6 +160,7 @@ void FusedVerlet::open_step() {
     Column(grain.position) += update->dt * velocity;
     fastest = std::max(fastest, velocity.squaredNorm());
   }
+  streams_.place(loop_, update->ntimestep, update->dt);
   closed_ = false;
   note_drift(fastest);
 }
@@ -220,6 +229,7 @@ void FusedVerlet::reneighbour() {
   timer->stamp(TIME_COMM);
   if (modify->n_pre_neighbor) modify->pre_neighbor();
   neighbor->build();
+  for (LAMMPS_NS::Fix* mesh : plan_.insertion_meshes) mesh->pre_force(vflag);
   load_grains();
   timer->stamp(TIME_NEIGHBOR);
 }
@@ -231,7 +241,7 @@ FusedVerlet::StepEnd FusedVerlet::who_looks_at_the_end() const {
   for (int n = 0; n < modify->nfix; ++n) {
     if (!(modify->fmask[n] & LAMMPS_NS::FixConst::END_OF_STEP)) continue;
     const LAMMPS_NS::Fix* fix = modify->fix[n];
-    if (step % fix->nevery != 0) continue;
+    if (step % fix->nevery != 0 || is_stream(fix)) continue;
     if (fix != plan_.held_force_fix) return StepEnd::closed;
     if (plan_.held_force->end_of_step_uses_atoms()) end = StepEnd::shown;
   }
@@ -263,13 +273,27 @@ void FusedVerlet::force_pass(StepEnd end) {
     store_state(atom->nlocal);  // ghosts
     for (LAMMPS_NS::Fix* fix : plan_.after_contacts) fix->post_force(vflag);
   }
-  if (goes_on) note_drift(loop_.square_speed());
+  if (!goes_on) return;
+  const double fastest = std::max(loop_.square_speed(), streams_.square_speed());
+  streams_.place(loop_, update->ntimestep + 1, update->dt);
+  note_drift(fastest);
 }
 
-void FusedVerlet::end_step() {
-  if (modify->n_end_of_step) modify->end_of_step();
-  if (closed_ && quit_requested_) stop_ = true;
-  if (update->ntimestep != output->next) return;
+bool FusedVerlet::is_stream(const LAMMPS_NS::Fix* fix) const {
+  return std::find(plan_.streams.begin(), plan_.streams.end(), fix) != plan_.streams.end();
+}
+
+// As Modify::end_of_step(). What fix insert/stream does there is done in our records already.
+void FusedVerlet::act_at_the_end(StepEnd end) {
+  for (int n = 0; n < modify->nfix; ++n) {
+    LAMMPS_NS::Fix* fix = modify->fix[n];
+    if (!(modify->fmask[n] & LAMMPS_NS::FixConst::END_OF_STEP)) continue;
+    if (update->ntimestep % fix->nevery != 0) continue;
+    if (end != StepEnd::passed || !is_stream(fix)) fix->end_of_step();
+  }
+}
+
+void FusedVerlet::write_output() {
   timer->stamp();
   store_histories();
   output->write(update->ntimestep);

@@ -18,6 +18,7 @@
 #include "liggghts_plugins/engine/ghost_exchange.hpp"
 #include "liggghts_plugins/engine/grain_loop.hpp"
 #include "liggghts_plugins/engine/scene_plan.hpp"
+#include "liggghts_plugins/engine/stream_grains.hpp"
 
 namespace gasgrain::plugins {
 
@@ -48,8 +49,10 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
   bool reneighbouring_due();
   void reneighbour();
   StepEnd who_looks_at_the_end() const;
+  bool is_stream(const LAMMPS_NS::Fix* fix) const;
   void force_pass(StepEnd end);
-  void end_step();
+  void act_at_the_end(StepEnd end);
+  void write_output();
 
   // Between the atom arrays and our records.
   void load_grains();
@@ -70,6 +73,7 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
 
   GrainLoop loop_;
   GhostExchange ghosts_;
+  StreamGrains streams_;
   std::vector<Vec3> built_at_;  // positions of local grains when the lists were built
   double moved_ = 0;            // m, bound on the displacement since then, of all ranks
   bool reneighbour_next_ = false;

@@ -5,12 +5,15 @@
 #include <neigh_list.h>
 #include <neighbor.h>
 #include <pair_gran.h>
+#include <update.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "coupling/shared/error.hpp"
 #include "liggghts_plugins/engine/fused_verlet.hpp"
+#include "liggghts_plugins/engine/primitive_wall_loads.hpp"
 #include "liggghts_plugins/fix_wall_sdf.h"
 #include "liggghts_plugins/pair_gran_cgm.hpp"
 
@@ -21,16 +24,34 @@ namespace {
 using Column = Eigen::Map<Vec3>;
 using ConstColumn = Eigen::Map<const Vec3>;
 
+std::size_t sum_of(const int* values, int count) {
+  return std::accumulate(values, values + count, std::size_t{0});
+}
+
+// Of a list of contact flags.
+std::size_t touching_count(const LAMMPS_NS::NeighList& list, const LAMMPS_NS::NeighList& flags) {
+  std::size_t count = 0;
+  for (int i = 0; i < list.inum; ++i)
+    count += std::count_if(flags.firstneigh[i], flags.firstneigh[i] + list.numneigh[i],
+                           [](int flag) { return flag != 0; });
+  return count;
+}
+
 }  // namespace
 
 void FusedVerlet::load_grains() {
   const GrainCounts counts{atom->nlocal, atom->nghost};
-  loop_.start(counts, *plan_.pair);
+  const LAMMPS_NS::NeighList& list = *static_cast<const LAMMPS_NS::PairGran&>(*force->pair).list;
+  loop_.start(counts, *plan_.pair, sum_of(list.numneigh, list.inum));
   load_state();
+  streams_.load(*lmp, plan_.streams.empty() ? nullptr : plan_.streams.front(), update->ntimestep);
+  streams_.hold(loop_, update->ntimestep);
   load_pairs();
   loop_.walls().clear();
   for (FixWallSdf* wall : plan_.walls) loop_.walls().emplace_back(*wall);
   loop_.finish_loading(neighbor->skin);
+  for (LAMMPS_NS::FixWallGran* wall : plan_.primitive_walls)
+    keep_near_grains(*wall, *atom, neighbor->skin);
   ghosts_.load(*lmp);
   built_at_.resize(counts.local);
   for (int i = 0; i < counts.local; ++i) built_at_[i] = ConstColumn(atom->x[i]);
@@ -61,6 +82,7 @@ void FusedVerlet::load_pairs() {
   GASGRAIN_ASSERT(list.inum == atom->nlocal);
   ContactList& pairs = loop_.pairs();
   std::vector<TouchingPair> touching;
+  if (histories) touching.reserve(touching_count(list, *histories));
   for (int i = 0; i < list.inum; ++i) {
     GASGRAIN_ASSERT(list.ilist[i] == i);
     for (int n = 0; n < list.numneigh[i]; ++n) {
@@ -69,7 +91,7 @@ void FusedVerlet::load_pairs() {
       pairs.add_candidate(j);
       if (histories && histories->firstneigh[i][n]) {
         const double* spring = histories->firstdouble[i] + 3 * n + offset;
-        touching.push_back({pairs.row_begin(i) + n, {{spring[0], spring[1], spring[2]}, 0.0}});
+        touching.push_back({pairs.row_begin(i) + n, {spring[0], spring[1], spring[2]}});
       }
     }
     pairs.end_row();
@@ -106,7 +128,6 @@ void FusedVerlet::show_grain(int i, const LoadRecord& load, const Vec3* held, do
 void FusedVerlet::store_histories() {
   if (!histories_are_ours_) return;
   histories_are_ours_ = false;
-  for (const WallContacts& wall : loop_.walls()) wall.store();
   // Pair::compute() sets this flag: the list is newer than what fix contacthistory holds
   int dimension = 0;
   *static_cast<int*>(force->pair->extract("computeflag", dimension)) = 1;
@@ -124,7 +145,7 @@ void FusedVerlet::store_histories() {
     for (; pair != touching.end() && pair->candidate < begin + count; ++pair) {
       const int n = pair->candidate - begin;
       histories.firstneigh[i][n] = touching_flags();
-      std::copy_n(pair->spring.displacement, 3, histories.firstdouble[i] + 3 * n + offset);
+      std::copy_n(pair->spring, 3, histories.firstdouble[i] + 3 * n + offset);
     }
   }
 }

@@ -12,24 +12,23 @@ constexpr double near_share = 0.3;
 
 }  // namespace
 
-void GrainLoop::start(GrainCounts counts, const PairLaw& law) {
+void GrainLoop::start(GrainCounts counts, const PairLaw& law, std::size_t candidates) {
   counts_ = counts;
   law_ = &law;
   const int size = counts.total() + 2;
   grains_.resize(size);
   spins_.resize(size);
-  members_.resize(size);
+  members_.clear();
+  if (counts.total() == 0) members_.push_back({.type = 1, .mass = 1, .radius = 1, .frozen = false});
   types_.resize(size);
   fixed_.resize(size);
   some_fixed_ = false;
   const double places[2][3] = {{0, 0, 0}, {1, 0, 0}}, at_rest[3] = {0, 0, 0};
-  // padding: law-abiding members, but points that never touch
-  const PairMember padding{.type = 1, .mass = 1.0, .radius = 1.0, .frozen = false};
-  for (int n = counts.total(); n < size; ++n) {
-    set_grain(n, {places[n - counts.total()], at_rest, at_rest, padding, false});
-    grains_[n].radius = 0.0;
-  }
-  pairs_.start(counts.local, counts.total());
+  // padding: points that never touch
+  const PairMember point{.type = 1, .mass = 1.0, .radius = 0.0, .frozen = false};
+  for (int n = counts.total(); n < size; ++n)
+    set_grain(n, {places[n - counts.total()], at_rest, at_rest, point, false});
+  pairs_.start(counts.local, counts.total(), candidates);
 }
 
 void GrainLoop::set_grain(int i, const GrainState& state) {
@@ -45,16 +44,16 @@ void GrainLoop::set_grain(int i, const GrainState& state) {
   grain.radius = radius;
   grain.inverse_mass = 1.0 / mass;
   spin.inverse_inertia = radius > 0 ? 1.0 / (sphere * mass * radius * radius) : 0.0;
-  members_[i] = state.contact;
+  if (i < counts_.total()) note_member(i, state.contact);
   types_[i] = state.contact.type;
   fixed_[i] = state.fixed ? 1 : 0;
   some_fixed_ = some_fixed_ || state.fixed;
 }
 
-bool GrainLoop::all_pairs_alike() const {
-  for (int i = 1; i < counts_.total(); ++i)
-    if (members_[i] != members_[0]) return false;
-  return true;
+void GrainLoop::note_member(int i, const PairMember& member) {
+  if (members_.empty()) members_.push_back(member);
+  if (uniform() && members_[0] != member) members_.resize(grains_.size(), members_[0]);
+  if (!uniform()) members_[i] = member;
 }
 
 // Slots in use at a time: those of the block and as far as its pairs reach.
@@ -67,7 +66,6 @@ void GrainLoop::size_ring() {
 }
 
 void GrainLoop::finish_loading(double skin) {
-  uniform_ = all_pairs_alike();
   size_ring();
   near_margin_ = near_share * skin;
   travelled_ = 0.0;
@@ -76,10 +74,8 @@ void GrainLoop::finish_loading(double skin) {
 }
 
 void GrainLoop::choose_near_pairs() {
-  pairs_.choose_near_pairs(grains_.data(), near_margin_, uniform_, [this](int i, int j) {
-    return uniform_ ? law_->between(members_[0], members_[0])
-                    : law_->between(members_[i], members_[j]);
-  });
+  pairs_.choose_near_pairs(grains_.data(), near_margin_, uniform(),
+                           [this](int i, int j) { return law_->between(member(i), member(j)); });
   near_travelled_ = 0.0;
 }
 
@@ -142,7 +138,7 @@ void GrainLoop::force_pass(const PassSettings& settings, const Observer* observe
   for (int block = 0; block < pairs_.block_count(); ++block) {
     integration.begin = block * grains_per_block;
     integration.end = std::min(counts_.local, integration.begin + grains_per_block);
-    pairs_.add_contact_loads(block, contacts, model, uniform_);
+    pairs_.add_contact_loads(block, contacts, model, uniform());
     for (WallContacts& wall : walls_) wall.add_contact_loads(block, wall_batch);
     add_outside_loads(integration.end);
     if (observer)

@@ -54,7 +54,7 @@ class GrainLoop {
   // Called for every local grain with its contact load, before integration.
   using Observer = std::function<void(int grain, const LoadRecord& load)>;
 
-  void start(GrainCounts counts, const PairLaw& law);
+  void start(GrainCounts counts, const PairLaw& law, std::size_t candidates);
   void set_grain(int i, const GrainState& state);
   ContactList& pairs() { return pairs_; }
   std::vector<WallContacts>& walls() { return walls_; }
@@ -68,6 +68,12 @@ class GrainLoop {
   const GrainRecord& grain(int i) const { return grains_[i]; }
   SpinRecord& spin(int i) { return spins_[i]; }
   bool is_fixed(int i) const { return fixed_[i] != 0; }
+  // From now on the grain keeps place and velocity, or does not any more.
+  void fix_grain(int i) {
+    fixed_[i] = 1;
+    some_fixed_ = true;
+  }
+  void free_grain(int i) { fixed_[i] = 0; }
 
   // Tells that all grains, ghosts too, moved by at most this, m. Kept for the near pairs and walls.
   void note_travel(double distance);
@@ -76,7 +82,10 @@ class GrainLoop {
   LargestOverlap largest_overlap() const { return {largest_[0], largest_[1]}; }
 
  private:
-  bool all_pairs_alike() const;
+  void note_member(int i, const PairMember& member);
+  // All pairs have the same coefficients.
+  bool uniform() const { return members_.size() == 1; }
+  const PairMember& member(int i) const { return members_[uniform() ? 0 : i]; }
   void size_ring();
   void choose_near_pairs();
   void add_outside_loads(int end);
@@ -85,7 +94,7 @@ class GrainLoop {
   const PairLaw* law_ = nullptr;
   std::vector<GrainRecord> grains_;  // local, ghosts, two that never touch
   std::vector<SpinRecord> spins_;
-  std::vector<PairMember> members_;
+  std::vector<PairMember> members_;  // of all grains, or one that all of them are like
   std::vector<int> types_;
   std::vector<unsigned char> fixed_;
   bool some_fixed_ = false;
@@ -95,10 +104,9 @@ class GrainLoop {
   std::vector<WallContacts> walls_;
   std::vector<std::vector<GrainLoad>> outside_loads_;
   std::vector<std::size_t> outside_done_;  // loads of each list that have been added
-  bool uniform_ = false;
-  double near_margin_ = 0;     // m
-  double near_travelled_ = 0;  // m since the near pairs were chosen
-  double travelled_ = 0;       // m since loading
+  double near_margin_ = 0;                 // m
+  double near_travelled_ = 0;              // m since the near pairs were chosen
+  double travelled_ = 0;                   // m since loading
   double square_speed_ = 0;
   double largest_[2] = {0, 0};
 };

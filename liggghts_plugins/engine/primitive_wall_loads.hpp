@@ -17,6 +17,11 @@ namespace gasgrain::plugins {
 // Whether this is all that the fix does in a step: no mesh, no stored forces, no heat.
 bool computes_loads_only(LAMMPS_NS::FixWallGran& wall);
 
+// Takes the grains out of the fix's list that are farther away than `reach` (m, of the surfaces)
+// and cannot come into contact before the list is built again. LIGGGHTS lists every grain outside
+// of a cylinder.
+void keep_near_grains(LAMMPS_NS::FixWallGran& wall, LAMMPS_NS::Atom& atom, double reach);
+
 // Lets the fix compute the loads of the present positions; ascending grains. Overwrites state,
 // force and torque of its grains in the atom arrays.
 void compute_wall_loads(std::vector<GrainLoad>& loads, LAMMPS_NS::FixWallGran& wall,

@@ -179,6 +179,15 @@ class Planner {
       plan_.after_contacts.push_back(&fix);
       return true;
     }
+    if (is_style(fix, "insert/stream")) {
+      plan_.streams.push_back(&fix);
+      return true;
+    }
+    // walls of it and whatever moves it are fixes of their own, and not understood
+    if (is_style(fix, "mesh/surface") || is_style(fix, "mesh/surface/planar")) {
+      plan_.insertion_meshes.push_back(&fix);
+      return true;
+    }
     if (is_style(fix, "nve/sphere")) {
       const auto& sphere = static_cast<const FixNVESphere&>(fix);
       ++integrators_;
@@ -241,6 +250,7 @@ std::string ScenePlan::text() const {
   if (!walls.empty()) text += ", wall/sdf x " + std::to_string(walls.size());
   if (!primitive_walls.empty())
     text += ", wall/gran primitive x " + std::to_string(primitive_walls.size());
+  if (!streams.empty()) text += ", insert/stream x " + std::to_string(streams.size());
   if (held_force) text += ", " + std::string(held_force_fix->style);
   return text + ", nve/sphere";
 }

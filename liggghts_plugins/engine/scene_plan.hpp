@@ -35,6 +35,10 @@ struct ScenePlan {
   HeldForceFix* held_force = nullptr;           // fix couple/gas
   LAMMPS_NS::Fix* held_force_fix = nullptr;     // the same
   std::vector<LAMMPS_NS::Fix*> reneighbouring;  // fixes that ask for it at steps of their own
+  std::vector<LAMMPS_NS::Fix*> streams;         // fix insert/stream (stream_grains.hpp)
+  // Meshes that do not move and of which no wall is made: those of insertion. Their pre_force()
+  // deals them out to the ranks after a reneighbouring.
+  std::vector<LAMMPS_NS::Fix*> insertion_meshes;
 
   bool known_pair_style = false;
 

@@ -13,9 +13,6 @@ using ConstColumn = Eigen::Map<const Vec3>;
 
 void WallContacts::load(int local_count) {
   grains_ = wall_->candidates();
-  displacements_.resize(grains_.size());
-  for (std::size_t c = 0; c < grains_.size(); ++c)
-    displacements_[c] = wall_->displacements()[grains_[c]];
   touches_after_.assign(grains_.size(), 0.0);
   swept_ = 0.0;
   block_begin_.clear();
@@ -23,11 +20,6 @@ void WallContacts::load(int local_count) {
     block_begin_.push_back(static_cast<int>(
         std::lower_bound(grains_.begin(), grains_.end(), begin) - grains_.begin()));
   block_begin_.push_back(static_cast<int>(grains_.size()));
-}
-
-void WallContacts::store() const {
-  for (std::size_t c = 0; c < grains_.size(); ++c)
-    wall_->displacements()[grains_[c]] = displacements_[c];
 }
 
 void WallContacts::begin_step() {
@@ -51,6 +43,7 @@ template <TangentialModel tangential>
 void WallContacts::add_block(int block, const WallBatch& batch) {
   SdfWall& wall = wall_->wall();
   const double steepest = wall.body().shape->steepest_gradient();
+  std::vector<Vec3>& springs = wall_->springs();
   const double travelled = batch.travelled + swept_;
   for (int c = block_begin_[block]; c < block_begin_[block + 1]; ++c) {
     if (travelled < touches_after_[c]) continue;
@@ -63,7 +56,7 @@ void WallContacts::add_block(int block, const WallBatch& batch) {
                             .position = ConstColumn(record.position),
                             .velocity = ConstColumn(record.velocity),
                             .spin = ConstColumn(batch.spins[i].velocity)};
-    const WallTouch touch = wall.touch<tangential>(grain, displacements_[c], batch.step, load_);
+    const WallTouch touch = wall.touch<tangential>(grain, springs[c], batch.step, load_);
     if (touch.touches) {
       LoadRecord& sum = batch.ring.slots[i & batch.ring.mask];
       Column(sum.force) += touch.force;

@@ -29,10 +29,8 @@ class WallContacts {
  public:
   explicit WallContacts(FixWallSdf& wall) : wall_(&wall) {}
 
-  // Takes candidates and springs from the fix.
+  // Takes the candidates from the fix, where their springs stay.
   void load(int local_count);
-  // Gives the springs back.
-  void store() const;
 
   void begin_step();
   void add_contact_loads(int block, const WallBatch& batch);
@@ -47,7 +45,6 @@ class WallContacts {
   std::vector<int> grains_;            // ascending
   std::vector<int> block_begin_;       // per block, and the end
   std::vector<double> touches_after_;  // m, `travelled` before which there is no contact
-  std::vector<Vec3> displacements_;    // m
   double swept_ = 0.0;                 // m, at least what any point of the wall has moved
   WallLoad load_;
 };

@@ -109,7 +109,7 @@ TEST(ContactList, keeps_springs_when_near_pairs_are_chosen_anew) {
   for (std::size_t n = 0; n < before.size(); ++n) {
     EXPECT_EQ(after[n].candidate, before[n].candidate);
     for (int d = 0; d < 3; ++d)
-      EXPECT_NEAR(after[n].spring.displacement[d], before[n].spring.displacement[d], 1e-15);
+      EXPECT_NEAR(after[n].spring[d], before[n].spring[d], 1e-15);
   }
 }
 
@@ -118,7 +118,7 @@ TEST(ContactList, forgets_a_pair_that_parts) {
   crowd.choose(0.5);
   crowd.add_loads(TangentialModel::history, 1e-3);
   ASSERT_EQ(crowd.list.touching().size(), 1u);
-  EXPECT_NE(crowd.list.touching()[0].spring.displacement[0], 0.0);
+  EXPECT_NE(crowd.list.touching()[0].spring[0], 0.0);
   const double touching_at = crowd.grains[1].position[2];
   crowd.grains[1].position[2] += 1.4;
   crowd.add_loads(TangentialModel::history, 1e-3);
@@ -126,7 +126,7 @@ TEST(ContactList, forgets_a_pair_that_parts) {
   crowd.grains[1].position[2] = touching_at;
   crowd.add_loads(TangentialModel::history, 0.0);
   ASSERT_EQ(crowd.list.touching().size(), 1u);
-  for (int d = 0; d < 3; ++d) EXPECT_EQ(crowd.list.touching()[0].spring.displacement[d], 0.0);
+  for (int d = 0; d < 3; ++d) EXPECT_EQ(crowd.list.touching()[0].spring[d], 0.0);
 }
 
 // The same contact by the scalar law that the stock path uses.

@@ -13,77 +13,10 @@ import time
 import unittest
 
 import bed_of_grains as bed
+from engine_scenes import (FORCES, RADIUS, SCALE, SIDE, SPEED, UNWRAPPED, WALLS, EngineTest, crowd,
+                           files, plate, reference_log, scene, thermo_of)
 from liggghts_run import (ENVIRONMENT, GASGRAIN, MPIEXEC, Bench, Grain, cgm_properties, data_file,
-                          dump_command, largest_difference, preamble, thermo)
-
-SPEED = 0.5  # m/s
-RADIUS = bed.RADIUS
-SCALE = [2 * RADIUS] * 3 + [SPEED] * 3 + [SPEED / RADIUS] * 3
-UNWRAPPED = "xu yu zu vx vy vz omegax omegay omegaz"
-FORCES = "x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz"
-SIDE = 12.0 * RADIUS
-
-BOX = "".join(f'[[body]]\nname = "{name}"\nplane = {{point = {point}, normal = {normal}}}\n'
-              for name, point, normal in (
-                  ("west", [0, 0, 0], [1, 0, 0]), ("east", [2 * SIDE, 0, 0], [-1, 0, 0]),
-                  ("south", [0, 0, 0], [0, 1, 0]), ("north", [0, SIDE, 0], [0, -1, 0]),
-                  ("floor", [0, 0, 0], [0, 0, 1]), ("lid", [0, 0, 2 * SIDE], [0, 0, -1])))
-WALLS = "".join(f"fix {body} all wall/sdf case box.toml body {body} type 2\n"
-                for body in ("west", "east", "south", "north", "floor", "lid"))
-
-
-def crowd(types=1, radii=(RADIUS,), seed=1, pitch=2.02):
-    """About 1000 grains in 12 x 6 x 12 cells of a lattice, agitated and spinning."""
-    numbers = random.Random(seed)
-    made = []
-    spacing = [2 * SIDE / 12, SIDE / 6, 2 * SIDE / 12]
-    assert min(spacing) > 0.99 * pitch * max(radii)
-    for k in range(12):
-        for j in range(6):
-            for i in range(12):
-                place = tuple((n + 0.5) * h for n, h in zip((i, j, k), spacing))
-                kind = numbers.randrange(len(radii))
-                made.append(Grain(place, radii[kind],
-                                  tuple(numbers.gauss(0, SPEED) for _ in range(3)),
-                                  tuple(numbers.gauss(0, SPEED / RADIUS) for _ in range(3)),
-                                  type=1 + kind % types))
-    return made
-
-
-def files(grains, types=2):
-    return {"grains.data": data_file(grains, [0, 0, 0], [2 * SIDE, SIDE, 2 * SIDE], types),
-            "box.toml": BOX}
-
-
-def scene(boundary="f f f", tangential="history", walls=WALLS, properties=None, head="", l=1.0):
-    """Grains of k = 50 N/m at a tenth of their contact time per step."""
-    return (head + preamble("grains.data", skin=0.2 * RADIUS, l=l, boundary=boundary) +
-            (properties or cgm_properties(2, k=50.0, e=0.8, mu=0.4)) +
-            f"pair_style gran model cgm tangential {tangential}\npair_coeff * *\ntimestep 4e-6\n"
-            "fix gravity all gravity 9.81 vector 0 0 -1\nfix integrate all nve/sphere\n" + walls)
-
-
-def thermo_of(columns):
-    return (f"thermo_style custom step atoms ke {columns}\nthermo 100\n"
-            "thermo_modify format float %.17g norm no lost error\n")
-
-
-class EngineTest(unittest.TestCase):
-    def off_and_fused(self, scene_text, rest, scene_files, ranks=1, mode="fused"):
-        reference, fused = Bench(scene_files), Bench(scene_files)
-        reference.run("gasgrain_engine off\n" + scene_text + rest)
-        run = fused.run(f"gasgrain_engine {mode}\n" + scene_text + rest, ranks=ranks)
-        self.assertIn("Engine: fused", run.text)
-        return reference, fused, run
-
-    def assert_same_motion(self, reference, fused, limits=((300, 1e-10), (1000, 1e-8)), every=100):
-        frames, others = reference.frames("d.dump"), fused.frames("d.dump")
-        self.assertEqual(len(frames), len(others))
-        for step, limit in limits:
-            until = step // every + 1
-            self.assertLessEqual(until, len(frames))
-            self.assertLess(largest_difference(others[:until], frames[:until], SCALE), limit)
-        return frames
+                          dump_command, largest_difference, thermo)
 
 
 class SameMotion(EngineTest):
@@ -203,132 +136,6 @@ class SameMotion(EngineTest):
                 self.assertLess(abs(row[column] - other[column]) / unit, 1e-7, (column, row[0]))
 
 
-def matrices(types, **values):
-    """`fix property/global` of one value, or of a list of values, for all pairs of types."""
-    text = ""
-    for name, value in values.items():
-        entries = value if isinstance(value, (list, tuple)) else [value] * types**2
-        text += (f"fix {name} all property/global {name} peratomtypepair {types} " +
-                 " ".join(f"{entry:.17g}" for entry in entries) + "\n")
-    return text
-
-
-STIFFNESSES = matrices(2, kn=[50, 40, 40, 60], kt=[40, 30, 30, 55], gamman=3e3, gammat=2e3,
-                       gamman_abs=[1e-4, 8e-5, 8e-5, 2e-4], gammat_abs=1e-4,
-                       coefficientFriction=[.4, .3, .3, .6])
-MATERIALS = ("fix Y all property/global youngsModulus peratomtype 5e6 8e6\n"
-             "fix nu all property/global poissonsRatio peratomtype 0.3 0.4\n"
-             "fix V all property/global characteristicVelocity scalar 0.5\n" +
-             matrices(2, coefficientRestitution=[.8, .7, .7, .9],
-                      coefficientFriction=[.4, .3, .3, .6]))
-
-
-def stock_scene(model, properties, moving="all", groups="", last=""):
-    """Grains between stock walls of the same model, without any style of ours."""
-    names, *options = model.split(" with ")
-    options = " ".join(options)
-    walls = "".join(f"fix {name} all wall/gran model {names} primitive type 2 {kind} {place:.17g} "
-                    f"{options}\n"
-                    for name, kind, place in (
-                        ("west", "xplane", 0), ("east", "xplane", 2 * SIDE), ("south", "yplane", 0),
-                        ("north", "yplane", SIDE), ("floor", "zplane", 0), ("lid", "zplane",
-                                                                           2 * SIDE)))
-    head = preamble("grains.data", skin=0.2 * RADIUS)
-    return (head.replace("delay 0", "delay 0 contact_distance_factor 1.01") + properties +
-            f"pair_style gran model {names} {options}\npair_coeff * *\ntimestep 4e-6\n"
-            f"{groups}fix gravity all gravity 9.81 vector 0 0 -1\n"
-            f"fix integrate {moving} nve/sphere\n" + walls + last)
-
-
-class StockModels(EngineTest):
-    """Scripts of plain LIGGGHTS users, with every model and option that is fused."""
-    TWO_SIZES = {"types": 2, "radii": (RADIUS, 0.8 * RADIUS)}
-
-    def check(self, model, properties, ranks=1, rest="", **scene_options):
-        text = stock_scene(model, properties, **scene_options)
-        rest = dump_command("d", 100, FORCES) + rest + "run 600\nrun 400\n"
-        reference, fused, run = self.off_and_fused(text, rest, files(crowd(**self.TWO_SIZES)),
-                                                   ranks)
-        self.assertIn(f"Engine: fused: {model.split(' ')[0]} tangential", run.text)
-        frames, others = reference.frames("d.dump"), fused.frames("d.dump")
-        self.assertGreaterEqual(len(frames), 11)
-        force = max(abs(value) for frame in frames for grain in frame.values()
-                    for value in grain[9:12])
-        self.assertGreater(force, 0)
-        scale = SCALE + [force] * 3 + [force * RADIUS] * 3
-        self.assertLess(largest_difference(others[:4], frames[:4], scale), 1e-10)
-        self.assertLess(largest_difference(others, frames, scale), 1e-7)
-        return frames, others
-
-    def test_hooke_stiffness(self):
-        for tangential in ("history", "no_history", "off"):
-            for options in ("", " with absolute_damping on",
-                            " with tangential_damping off limitForce on"):
-                with self.subTest(tangential=tangential, options=options):
-                    self.check(f"hooke/stiffness tangential {tangential}{options}", STIFFNESSES)
-
-    def test_hooke(self):
-        for tangential, options in (("history", ""), ("no_history", ""), ("off", ""),
-                                    ("history", " with ktToKnUser on tangential_damping off")):
-            with self.subTest(tangential=tangential, options=options):
-                self.check(f"hooke tangential {tangential}{options}", MATERIALS)
-
-    def test_hertz(self):
-        for tangential, options in (("history", ""), ("no_history", ""), ("off", ""),
-                                    ("history", " with tangential_damping off limitForce on")):
-            with self.subTest(tangential=tangential, options=options):
-                self.check(f"hertz tangential {tangential}{options}", MATERIALS)
-
-    def test_ranks(self):
-        self.check("hertz tangential history", MATERIALS, ranks=2)
-
-    def test_frozen_grains(self):
-        """A layer of grains that stays where it is; `fix freeze` reports the force on it."""
-        groups = ("region low block INF INF INF INF INF " + f"{SIDE / 3:.17g} units box\n"
-                  "group frozen region low\ngroup moving subtract all frozen\n")
-        freeze = "fix frozen frozen freeze\n"
-        rest = thermo_of("f_frozen[1] f_frozen[3]")
-        for model, properties in (("hertz tangential history", MATERIALS),
-                                  ("hooke/stiffness tangential history", STIFFNESSES)):
-            for ranks in (1, 2):
-                with self.subTest(model=model, ranks=ranks):
-                    frames, _ = self.check(model, properties, ranks, rest, moving="moving",
-                                           groups=groups, last=freeze)
-                    still = [tag for tag, grain in frames[0].items() if grain[2] < SIDE / 3]
-                    self.assertGreater(len(still), 100)
-                    for tag in still:
-                        self.assertEqual(frames[0][tag][:3], frames[-1][tag][:3])
-        text = (scene().replace("integrate all", "integrate moving")
-                .replace("fix gravity", groups + "fix gravity") + freeze)
-        scene_files = files(crowd())
-        logs = []
-        for mode in ("off", "fused"):
-            bench = Bench(scene_files)
-            bench.run(f"gasgrain_engine {mode}\n" + text + rest + "run 500\n")
-            logs.append(thermo(reference_log(bench)))
-        for row, other in zip(*logs, strict=True):
-            for a, b in zip(row[2:], other[2:], strict=True):
-                self.assertLess(abs(a - b), 1e-8 * max(abs(value) for value in logs[0][-1]))
-
-    def test_what_the_models_cannot_do_is_named(self):
-        for model, properties, name in (
-                ("hooke tangential history with viscous on", MATERIALS + matrices(
-                    2, FluidViscosity=1e-5, CriticalStokes=10, MaximumRestitution=.9), "viscous"),
-                ("hertz tangential history rolling_friction cdt", MATERIALS + matrices(
-                    2, coefficientRollingFriction=.1), "pair style other than")):
-            with self.subTest(name):
-                text = stock_scene(model, properties)
-                text = "\n".join(line for line in text.split("\n") if "wall/gran" not in line)
-                run = Bench(files(crowd())).run("gasgrain_engine fused\n" + text + "run 10\n",
-                                                check=False)
-                self.assertNotEqual(run.code, 0)
-                self.assertIn(name, run.text)
-
-
-def reference_log(bench):
-    return (bench.directory / "log.txt").read_text()
-
-
 class ManyGrains(EngineTest):
     def test_energies_of_50_000_grains(self):
         """Kinetic and rotational energy to 8 digits after 400 steps."""
@@ -415,35 +222,6 @@ class HandingOver(EngineTest):
         self.assertTrue((fused.directory / "r.450.restart").exists())
 
 
-INSERTION = """
-region factory block {lo} {hi} {lo} {hy} {mid} {hi} units box
-fix template all particletemplate/sphere 15485863 atom_type 1 density constant 2500 &
-    radius constant {radius}
-fix mixture all particledistribution/discrete 32452843 1 template 1.0
-fix insert all insert/pack seed 86028121 distributiontemplate mixture vel constant 0. 0. -0.5 &
-    insert_every 200 overlapcheck yes all_in yes particles_in_region 40 region factory
-""".format(lo=1e-4, hi=2 * SIDE - 1e-4, hy=SIDE - 1e-4, mid=1.4 * SIDE, radius=RADIUS)
-
-
-class Insertion(EngineTest):
-    def test_grains_come_while_the_engine_runs(self):
-        grains = [grain for grain in crowd() if grain.position[2] < SIDE]
-        reference, fused, run = self.off_and_fused(
-            scene(), INSERTION + dump_command("d", 100) + "run 700\n", files(grains))
-        frames = self.assert_same_motion(reference, fused, ((300, 1e-10), (700, 1e-8)))
-        self.assertGreater(len(frames[-1]), len(grains) + 30)
-        self.assertIn("Engine: fused", run.text)
-
-    def test_from_an_empty_box(self):
-        reference, fused, _ = self.off_and_fused(
-            scene().replace("read_data grains.data",
-                            f"region r block 0 {2 * SIDE} 0 {SIDE} 0 {2 * SIDE} units box\n"
-                            "create_box 2 r"),
-            INSERTION + dump_command("d", 100) + "run 700\n", files([]))
-        frames = self.assert_same_motion(reference, fused, ((300, 1e-10), (700, 1e-8)))
-        self.assertGreater(len(frames[-1]), 30)
-
-
 GAS = f"""
 [grid]
 lower = [0.0, 0.0, 0.0]
@@ -508,17 +286,6 @@ class Signal(EngineTest):
                 process.send_signal(signal.SIGINT if ranks == 1 else signal.SIGTERM)
                 text = process.communicate(timeout=60)[0]
                 self.assertRegex(text, r"Loop time of \S+ on")
-
-
-def plate(height, lower, upper):
-    """An STL file of a square plate."""
-    (a, b), (c, d) = lower, upper
-    text = "solid plate\n"
-    for corners in (((a, b), (c, b), (c, d)), ((a, b), (c, d), (a, d))):
-        text += "facet normal 0 0 1\n outer loop\n"
-        text += "".join(f"  vertex {x:.9g} {y:.9g} {height:.9g}\n" for x, y in corners)
-        text += " endloop\nendfacet\n"
-    return text + "endsolid plate\n"
 
 
 PLATE = plate(1e-4, (1e-3, 1e-3), (2 * SIDE - 1e-3, SIDE - 1e-3))

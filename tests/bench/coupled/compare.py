@@ -18,7 +18,8 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "dem"))
-import compare as dem  # noqa: E402  (the bench of the grains alone: bed, walls, start of programs)
+import scene as scenes  # noqa: E402  (the bench of the grains alone)
+from settled_bed import read_bed  # noqa: E402
 
 GAS = """
 [grid]
@@ -41,29 +42,13 @@ exchange_interval = 1e-4
 """
 
 
+SCENE = scenes.Scene()
+
+
 def script(program, given):
-    stock = program == "stock"
-    styles = dem.contact_styles("stock" if stock else "fused", 1, "hertz")
-    gas = "" if stock else "fix gas all couple/gas case case.toml\n"
-    return f"""units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-processors {given.ranks} 1 1
-read_data grains.data
-neighbor {given.skin} bin
-neigh_modify delay 0 contact_distance_factor 1.01
-{styles}timestep 1e-6
-fix gravity all gravity 9.81 vector 0 0 -1
-{gas}fix integrate all nve/sphere
-thermo_style custom step atoms ke
-thermo 100000
-thermo_modify norm no lost error
-run 200
-run {given.steps}
-"""
+    if program == "stock":
+        return scenes.script("primitive", SCENE, given)
+    return scenes.script("fused", SCENE, given, "fix gas all couple/gas case case.toml\n")
 
 
 def main():
@@ -76,21 +61,21 @@ def main():
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--skin", type=float, default=5e-5)
     given = parser.parse_args()
+    given.stock_model = "hertz"
     executable = {"stock": shutil.which("liggghts") or "liggghts",
                   "coupled": str((given.build / "bin" / "gasgrain").resolve())}
-    start = ["mpirun", "--oversubscribe", "-n", str(given.ranks)] if given.ranks > 1 else []
-    bed = dem.read_bed(given.bed)
+    bed = read_bed(given.bed)
     samples = {"stock": [], "coupled": []}
     with tempfile.TemporaryDirectory(prefix="gasgrain-bench-") as name:
         directory = pathlib.Path(name)
-        (directory / "grains.data").write_text(dem.data_file(bed, 1, "C"))
+        (directory / "grains.data").write_text(scenes.data_file(SCENE, bed, "C"))
         (directory / "case.toml").write_text(
-            GAS + dem.case_file(1).replace("\nplane", '\nacts_on = ["grains"]\nplane'))
+            GAS + SCENE.case_file().replace("\nplane", '\nacts_on = ["grains"]\nplane'))
         for _ in range(given.repeats):
             for program in samples:
-                seconds = dem.seconds([*start, executable[program]], directory,
-                                      script(program, given))
-                samples[program].append(seconds * 1000 / given.steps)
+                done = scenes.run([*scenes.mpi(given.ranks), executable[program]], directory,
+                                  script(program, given))
+                samples[program].append(done.seconds * 1000 / given.steps)
     cost = {program: statistics.median(values) for program, values in samples.items()}
     print(f"{len(bed)} grains, {given.ranks} rank(s), seconds per 1000 DEM steps")
     for program, value in cost.items():
