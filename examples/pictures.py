@@ -11,21 +11,19 @@ from matplotlib.animation import PillowWriter  # noqa: E402
 MM = 1e3  # drawings are in millimetres
 
 
-def grains_in_section(axes, grains, depth, colours, limits, colour_map, across="x"):
-    """Grains in a slab depth[0] <= y < depth[1] (m), painted from back to front.
+def grains_in_section(axes, grains, depth, colours, limits, colour_map):
+    """Grains with depth[0] <= y < depth[1] (m), painted from back to front.
 
-    `colours`: one number per grain, shown between `limits`. `across`: the horizontal direction of
-    the picture; with "y" the slab is one of x.
+    `colours`: one number per grain, shown between `limits`.
     """
-    horizontal = "xy".index(across)
     position = grains["position"]
-    behind = position[:, 1 - horizontal]
-    order = numpy.argsort(-behind)
-    order = order[(behind[order] >= depth[0]) & (behind[order] < depth[1])]
+    order = numpy.argsort(-position[:, 1])
+    shown = position[order, 1]
+    order = order[(shown >= depth[0]) & (shown < depth[1])]
     diameter = 2 * MM * grains["radius"][order]
     circles = matplotlib.collections.EllipseCollection(
         diameter, diameter, numpy.zeros(len(order)), units="xy",
-        offsets=MM * position[order][:, [horizontal, 2]], transOffset=axes.transData,
+        offsets=MM * position[order][:, [0, 2]], transOffset=axes.transData,
         array=colours[order], cmap=colour_map, edgecolors="0.25", linewidths=0.1)
     circles.set_clim(*limits)
     axes.add_collection(circles)
@@ -42,10 +40,10 @@ def void_fraction_in_section(axes, void, extent, line_colour="white"):
     return picture
 
 
-def frame_section(axes, x, z, title, across="x"):
+def frame_section(axes, x, z, title):
     """Axes of a section: limits in m."""
     axes.set(xlim=[MM * value for value in x], ylim=[MM * value for value in z], aspect="equal",
-             title=title, xlabel=f"{across} / mm")
+             title=title, xlabel="x / mm")
     axes.tick_params(length=2)
 
 

@@ -5,11 +5,11 @@ centre of mass at h/2, so the height in the shoe is twice the mean height of its
 floor, and does not depend on how the void fraction is smoothed. The height in the die is the volume
 of the grains in it over that of 25 mm packed as densely as the shoe was at the start.
 
-Splash: grains that are thrown out of the bed. A grain counts as thrown when its centre lies more
-than CLEARANCE above the surface of the bed, the highest level where the layer mean of the void
-fraction crosses 0.8. A splash is a time during which more than the share THROWN of all grains is up
-there; two peaks are two splashes when the share falls below half of the lower one in between. The
-time of a splash is that of its peak.
+Splash: gas bursts through the surface and throws grains up. While a shoe empties in peace the upper
+edge of the grains only sinks, whatever shape the surface takes; so a splash is a time in which the
+upper edge, the height above which EDGE_SHARE of all grains lie, is more than RISE above the lowest
+value it had before. Two peaks are two splashes when the rise falls below half of the lower one in
+between. The time of a splash is that of its peak.
 """
 
 import csv
@@ -26,11 +26,11 @@ import common  # noqa: E402
 
 DIE_HEIGHT = 0.025  # m; the floor of the shoe lies there
 DIE_AREA, SHOE_AREA = 0.05 * 0.025, math.pi * 0.025**2  # m^2
-CLEARANCE = 3e-3  # m
-THROWN = 1e-3  # share of all grains
+EDGE_SHARE = 1e-3
+RISE = 2e-3  # m
 FULL = 0.99  # share of the final content at which the die is called full
 COLUMNS = ("time", "shoe_height", "shoe_surface", "die_height", "die_share", "die_pressure",
-           "thrown_share", "highest_grain")
+           "upper_edge", "highest_grain")
 
 # Expected of each case: number of splashes and their times (s), from verification.md.
 EXPECTED = {"2-1": (1, (0.5,)), "2-2": (0, ()), "3-1": (2, (0.7, 0.85)), "3-2": (0, ())}
@@ -54,7 +54,7 @@ def measure(grains, surface, packed):
         "shoe_surface": surface - DIE_HEIGHT,
         "die_height": in_die / (packed * DIE_AREA),
         "die_share": in_die / volume.sum(),
-        "thrown_share": (z > surface + CLEARANCE).mean(),
+        "upper_edge": numpy.quantile(z, 1 - EDGE_SHARE) - DIE_HEIGHT,
         "highest_grain": z.max() - DIE_HEIGHT,
     }
 
@@ -72,14 +72,20 @@ def curves(directory):
     return {name: numpy.array([row[name] for row in rows]) for name in COLUMNS}, packed
 
 
-def splashes(time, thrown):
+def rise(upper_edge):
+    """Of the upper edge above its lowest value so far."""
+    return upper_edge - numpy.minimum.accumulate(upper_edge)
+
+
+def splashes(time, upper_edge):
     """Times of the splashes, s."""
-    peaks = [i for i in range(1, len(thrown) - 1)
-             if thrown[i] > THROWN and thrown[i] >= thrown[i - 1] and thrown[i] > thrown[i + 1]]
+    height = rise(upper_edge)
+    peaks = [i for i in range(1, len(height) - 1)
+             if height[i] > RISE and height[i] >= height[i - 1] and height[i] > height[i + 1]]
     kept = []
     for peak in peaks:
-        if kept and thrown[kept[-1]:peak].min() > 0.5 * min(thrown[kept[-1]], thrown[peak]):
-            if thrown[peak] > thrown[kept[-1]]:
+        if kept and height[kept[-1]:peak].min() > 0.5 * min(height[kept[-1]], height[peak]):
+            if height[peak] > height[kept[-1]]:
                 kept[-1] = peak
         else:
             kept.append(peak)
@@ -127,7 +133,7 @@ def quantity(name, value, unit, reference=None, tolerance=None, source=""):
 
 def quantities(case, table, series, packed):
     count, times = EXPECTED[case]
-    found = splashes(table["time"], table["thrown_share"])
+    found = splashes(table["time"], table["upper_edge"])
     paper = "Mori, Wu, Sakai, Powder Technology, 2019"
     final = START_HEIGHT[case] - DIE_AREA * DIE_HEIGHT / SHOE_AREA
     last = slice(-5, None)
@@ -144,7 +150,7 @@ def quantities(case, table, series, packed):
         quantity("die_full_time", time_full(table), "s", 0.6 if case == "2-1" else None,
                  0.1 if case == "2-1" else None, paper),
         quantity("splash_count", len(found), "-", count, 0.0, paper),
-        quantity("largest_thrown_share", table["thrown_share"].max(), "-"),
+        quantity("largest_rise", rise(table["upper_edge"]).max(), "m"),
         quantity("largest_die_pressure", series["pressure_drop"].max(), "Pa"),
         quantity("plateau_begin", begin, "s", 0.2 if case == "3-1" else None,
                  0.1 if case == "3-1" else None, paper),

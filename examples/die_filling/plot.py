@@ -11,40 +11,32 @@ import numpy  # noqa: E402
 import pictures  # noqa: E402
 from pictures import MM, pyplot  # noqa: E402
 
-RADIUS, DIE_HALF_WIDTH = 0.025, 0.0125  # of the shoe; of the die in the section x = 0; m
+RADIUS = 0.025  # of the shoe, and half the length of the die, m
 SNAPSHOTS = 5
-FASTEST = 0.6  # m/s, end of the colour scale
+FASTEST = 0.5  # m/s, ends of the colour scale
 
 
-def draw_walls(axes):
-    """Die and floor of the shoe in the section x = 0."""
-    for side in (-1, 1):
-        corners = (side * MM * DIE_HALF_WIDTH, 0) if side > 0 else (-MM * RADIUS, 0)
-        axes.add_patch(pyplot.Rectangle(corners, MM * (RADIUS - DIE_HALF_WIDTH),
-                                        MM * analysis.DIE_HEIGHT, facecolor="0.8",
-                                        edgecolor="0.3", linewidth=0.8, zorder=3))
+def frame_axes(axes, top):
+    """The section y = 0, in which shoe and die are equally wide; the line is where the gate was."""
+    axes.axhline(MM * analysis.DIE_HEIGHT, color="0.3", linewidth=0.8, linestyle="--", zorder=3)
+    pictures.frame_section(axes, (-RADIUS, RADIUS), (0, top), None)
 
 
 def draw_grains(axes, grains, top):
-    """Grains whose centre lies in a slab of two diameters about x = 0, by their speed."""
-    speed = numpy.linalg.norm(grains["velocity"], axis=1)
-    thickness = 2 * grains["radius"].max()
-    circles = pictures.grains_in_section(axes, grains, (-thickness, thickness), speed,
-                                         (0, FASTEST), "plasma", across="y")
-    draw_walls(axes)
-    pictures.frame_section(axes, (-RADIUS, RADIUS), (0, top), None, across="y")
+    """Grains whose centre lies in a slab of four diameters about y = 0."""
+    thickness = 4 * grains["radius"].max()
+    circles = pictures.grains_in_section(axes, grains, (-thickness, thickness),
+                                         grains["velocity"][:, 2], (-FASTEST, FASTEST), "coolwarm")
+    frame_axes(axes, top)
     return circles
 
 
 def draw_void_fraction(axes, gas, grid_top, top):
-    """Mean of the two layers of cells at x = 0."""
-    columns = gas["void_fraction"].shape[2]
-    middle = slice(columns // 2 - 1, columns // 2 + 1)
-    void = gas["void_fraction"][:, :, middle].mean(axis=2)
-    void = numpy.where(gas["wall_fraction"][:, :, middle].mean(axis=2) > 0.5, numpy.nan, void)
+    """Mean of the two layers of cells at y = 0."""
+    rows = gas["void_fraction"].shape[1]
+    void = gas["void_fraction"][:, rows // 2 - 1:rows // 2 + 1].mean(axis=1)
     picture = pictures.void_fraction_in_section(axes, void, (-RADIUS, RADIUS, 0, grid_top))
-    draw_walls(axes)
-    pictures.frame_section(axes, (-RADIUS, RADIUS), (0, top), None, across="y")
+    frame_axes(axes, top)
     return picture
 
 
@@ -68,21 +60,22 @@ def draw_pressure(axes, series):
     axes.set(ylabel="pressure below the shoe / Pa")
 
 
-def draw_thrown(axes, table):
-    thrown = 100 * table["thrown_share"]
-    axes.plot(table["time"], thrown, color="C2")
-    for time in analysis.splashes(table["time"], table["thrown_share"]):
-        axes.axvline(time, color="0.3", linewidth=0.8, linestyle="--")
-        axes.annotate(f" splash, {time:.2f} s", (time, 0.92), fontsize=8,
-                      xycoords=("data", "axes fraction"))
-    axes.axhline(100 * analysis.THROWN, color="0.6", linewidth=0.8, zorder=0)
-    axes.set(ylabel="thrown grains / %", ylim=(0, max(0.5, 1.25 * thrown.max())))
+def draw_upper_edge(axes, table):
+    axes.plot(table["time"], MM * table["upper_edge"], color="C2")
+    axes.plot(table["time"], MM * (table["upper_edge"] - analysis.rise(table["upper_edge"])),
+              color="0.5", linewidth=0.8, linestyle=":", label="lowest so far")
+    for time in analysis.splashes(table["time"], table["upper_edge"]):
+        axes.axvline(time, color="0.3", linewidth=0.8, linestyle="--", label=f"splash, {time:.2f} s")
+    axes.set(ylabel="upper edge of the grains / mm", ylim=(0, None))
+    axes.legend(frameon=False, fontsize=8)
 
 
 def snapshot_times(table):
-    """Times of the pictures, s: from the start to a little after the die is full."""
+    """Times of the pictures, s: the start, the splash or half of the filling, a little after it."""
     end = min(table["time"][-1], analysis.time_full(table) + 0.1)
-    return numpy.linspace(0, end, SNAPSHOTS)
+    found = analysis.splashes(table["time"], table["upper_edge"])
+    middle = found[0] if found else 0.6 * end
+    return numpy.interp([0, 1, 2, 3, 4], [0, 3, 4], [0, middle, end])
 
 
 def draw(directory, picture, table, title):
@@ -91,7 +84,7 @@ def draw(directory, picture, table, title):
     gas, grains = (frames.frame_files(directory, name) for name in ("gas", "grains"))
     times = numpy.array([time for time, _ in grains])
     top = 1e-3 * (5 + MM * (analysis.DIE_HEIGHT + table["highest_grain"].max()))
-    figure = pyplot.figure(figsize=(11, 9.5), layout="constrained")
+    figure = pyplot.figure(figsize=(11, 10), layout="constrained")
     figure.suptitle(title)
     upper, lower = figure.subfigures(2, 1, height_ratios=[2.4, 1])
     sections = upper.subplots(2, SNAPSHOTS, sharex=True, sharey=True)
@@ -103,12 +96,12 @@ def draw(directory, picture, table, title):
         sections[0, column].set(title=f"t = {times[number]:.2f} s", xlabel=None)
     for row in sections:
         row[0].set_ylabel("z / mm")
-    upper.colorbar(circles, ax=sections[0], label="speed of grains / (m/s)", shrink=0.8)
+    upper.colorbar(circles, ax=sections[0], label="vertical velocity / (m/s)", shrink=0.8)
     upper.colorbar(void, ax=sections[1], label="void fraction", shrink=0.8)
     curves = lower.subplots(1, 3, sharex=True)
     draw_heights(curves[0], table)
     draw_pressure(curves[1], series)
-    draw_thrown(curves[2], table)
+    draw_upper_edge(curves[2], table)
     for axes in curves:
         axes.set(xlabel="time / s", xlim=(0, table["time"][-1]))
     figure.savefig(picture, dpi=130)

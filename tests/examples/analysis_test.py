@@ -40,11 +40,14 @@ class Heights(unittest.TestCase):
         row = analysis.measure(bed, surface=0.065, packed=packed)
         self.assertAlmostEqual(row["die_height"], analysis.DIE_HEIGHT, delta=1e-6)
 
-    def test_thrown_grains_are_counted(self):
+    def test_upper_edge_leaves_a_thousandth_above(self):
         bed = column(0.04)
-        bed["position"][:500, 2] = analysis.DIE_HEIGHT + 0.04 + 1.01 * analysis.CLEARANCE
-        row = analysis.measure(bed, surface=analysis.DIE_HEIGHT + 0.04, packed=0.6)
-        self.assertAlmostEqual(row["thrown_share"], 500 / 200_000)
+        bed["position"][:250, 2] = analysis.DIE_HEIGHT + 0.06
+        row = analysis.measure(bed, surface=0.065, packed=0.6)
+        self.assertAlmostEqual(row["upper_edge"], 0.06, delta=1e-9)
+        bed["position"][:150, 2] = 0.01
+        row = analysis.measure(bed, surface=0.065, packed=0.6)
+        self.assertAlmostEqual(row["upper_edge"], 0.04, delta=1e-4)
 
 
 class Splashes(unittest.TestCase):
@@ -53,19 +56,22 @@ class Splashes(unittest.TestCase):
     def bumps(self, *bumps):
         return sum(height * numpy.exp(-((self.time - at) / width) ** 2) for at, height, width in bumps)
 
+    def splashes(self, *bumps):
+        sinking = 0.04 - 0.01 * self.time
+        found = analysis.splashes(self.time, sinking + self.bumps(*bumps))
+        return [round(time, 9) for time in found]
+
     def test_none_in_silence_and_below_the_threshold(self):
-        self.assertEqual(analysis.splashes(self.time, 0 * self.time), [])
-        self.assertEqual(analysis.splashes(self.time, self.bumps((0.5, 0.9e-3, 0.05))), [])
+        self.assertEqual(analysis.splashes(self.time, 0.04 - 0.02 * self.time), [])
+        self.assertEqual(self.splashes((0.5, 1.5e-3, 0.05)), [])
 
     def test_one_and_two(self):
-        one = analysis.splashes(self.time, self.bumps((0.5, 0.01, 0.05)))
-        self.assertEqual([round(t, 9) for t in one], [0.5])
-        two = analysis.splashes(self.time, self.bumps((0.7, 0.01, 0.03), (0.85, 0.005, 0.03)))
-        self.assertEqual([round(t, 9) for t in two], [0.7, 0.85])
+        self.assertEqual(self.splashes((0.5, 0.01, 0.05)), [0.5])
+        self.assertEqual(self.splashes((0.7, 0.01, 0.03), (0.85, 0.005, 0.03)), [0.7, 0.85])
 
     def test_a_rough_peak_is_one_splash_at_its_highest(self):
-        rough = self.bumps((0.5, 0.01, 0.05), (0.56, 0.008, 0.03), (0.6, 0.0085, 0.04))
-        self.assertEqual(len(analysis.splashes(self.time, rough)), 1)
+        self.assertEqual(len(self.splashes((0.5, 0.01, 0.05), (0.56, 0.008, 0.03),
+                                           (0.6, 0.0085, 0.04))), 1)
 
 
 class Plateau(unittest.TestCase):
