@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -48,7 +49,26 @@ def start_gasgrain(directory, script, ranks, variables):
     for name, value in variables.items():
         command += ["-var", name, f"{value:.10g}" if isinstance(value, float) else str(value)]
     sys.stdout.flush()
-    return subprocess.Popen(command, cwd=directory, env=mpi_environment(ranks))
+    # A session of its own: Ctrl-C is for us, see ask_to_end.
+    return subprocess.Popen(command, cwd=directory, env=mpi_environment(ranks),
+                            start_new_session=True)
+
+
+def ask_to_end(process):
+    """Asks the ranks that `process` (mpirun) has started here for a checkpoint and their end.
+
+    Told so itself, mpirun would kill them a second later.
+    """
+    children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+    try:
+        ranks = children.read_text().split()
+    except OSError:
+        ranks = []
+    for rank in ranks or [process.pid]:
+        try:
+            os.kill(int(rank), signal.SIGTERM)
+        except ProcessLookupError:
+            pass
 
 
 def set_key(text, key, value):
@@ -64,6 +84,13 @@ def set_text(text, old, new):
     if text.count(old) != 1:
         fail(f"file holds {text.count(old)} places '{old}', expected one")
     return text.replace(old, new)
+
+
+def set_kernel(text, millimetres):
+    """Case file with the width of the kernel stated; None leaves it to the default."""
+    if millimetres is None:
+        return text
+    return set_text(text, "[coupling]\n", f"[coupling]\nkernel_width = {1e-3 * millimetres:g}\n")
 
 
 def read_json(path):

@@ -11,7 +11,8 @@ import time
 
 import common
 
-STOPPED = 75  # exit code of a job that ended with a checkpoint after a signal
+STOPPED = 75  # our exit code when a checkpoint was written and there is more to do
+STOPPED_WORDS = "Ended by a signal"  # of gasgrain in its log; mpirun may change its exit code
 RECORD = "pieces.json"
 
 
@@ -88,12 +89,12 @@ def start_variables(job):
 
 def wait(process, hours):
     """Exit code of the job; after `hours`, or when we are told to end, it writes a checkpoint."""
-    before = {number: signal.signal(number, lambda *_: process.terminate())
+    before = {number: signal.signal(number, lambda *_: common.ask_to_end(process))
               for number in (signal.SIGTERM, signal.SIGINT)}
     try:
         return process.wait(3600 * hours)
     except subprocess.TimeoutExpired:
-        process.terminate()
+        common.ask_to_end(process)
         return process.wait()
     finally:
         for number, handler in before.items():
@@ -119,26 +120,34 @@ def run_piece(job, how):
              "commit": commit()}
     record["pieces"].append(piece)
     write_record(job.directory, record)
+    log = job.directory / "log.liggghts"
+    log.unlink(missing_ok=True)
     code = wait(common.start_gasgrain(job.directory, job.script, how.ranks,
                                       {**job.variables, **start}), how.hours)
     piece["seconds"] = time.time() - piece["began"]
-    if code == 0:
+    stopped = log.exists() and STOPPED_WORDS in log.read_text(errors="replace")
+    if code == 0 and not stopped:
         record["complete"] = job.variables["time"]
     write_record(job.directory, record)
-    if code == STOPPED:
+    if stopped:
         print("\nstopped with a checkpoint; the same command goes on")
         raise SystemExit(STOPPED)
     if code != 0:
-        common.fail(f"gasgrain ended with exit code {code}; see {job.directory}/log.liggghts")
+        common.fail(f"gasgrain ended with exit code {code}; see {log}")
 
 
-def add_options(parser, name):
-    """Options of every example."""
+def add_limits(parser):
+    """Options for how much of the machine a run takes."""
     parser.add_argument("--ranks", type=int, default=os.cpu_count(), metavar="N",
                         help="MPI ranks (default: all cores, here %(default)s)")
     parser.add_argument("--hours", type=float, default=2.0, metavar="H",
                         help="stop with a checkpoint after so many hours, exit code 75; the same "
                              "command goes on (default %(default)g)")
+
+
+def add_options(parser, name):
+    """Options of every example."""
+    add_limits(parser)
     parser.add_argument("--fresh", action="store_true",
                         help="begin anew even where a checkpoint or a result is there")
     parser.add_argument("--no-pictures", action="store_true", help="numbers only")

@@ -1,24 +1,31 @@
+#!/usr/bin/python3
 """Makes docs/validation.md from the summaries of the paper's six cases.
 
     examples/validation.py [DIRECTORY ...]
+    examples/validation.py --run DIRECTORY [--paper] [--cases 1-1 2-1 ...]
 
-Each DIRECTORY holds a finished run of fluidized_bed_tubes or die_filling; its summary and picture
-are taken into docs/validation/, where the finest run of each case is kept. The page is then made
-from what lies there.
+The second form first runs the cases, one after the other, in DIRECTORY/CASE; after two hours it
+stops with a checkpoint and exit code 75, and the same command goes on. A finished run's summary and
+picture are taken into docs/validation/, where the finest run of each case is kept. The page is then
+made from what lies there.
 """
 
 import argparse
 import pathlib
 import shutil
+import subprocess
 import sys
+import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 import common  # noqa: E402
+import pieces  # noqa: E402
 
 STORE = common.ROOT / "docs" / "validation"
 PAGE = common.ROOT / "docs" / "validation.md"
 CASES = ("1-1", "1-2", "2-1", "2-2", "3-1", "3-2")
+VELOCITIES = {"1-1": "0.2", "1-2": "0.3"}  # m/s
 BALANCE = 1e-6  # of the weight, reference/verification.md
 
 # name in summary.json, label, factor, unit
@@ -42,6 +49,27 @@ SPREAD = (("bed_height_void_0.7_mean", "at void fraction 0.7"),
 PAPER_SIMULATION = {"1-1": 91.4, "1-2": 98.0}  # mm
 INTERVALS = {"bed_height_mean": "bed_height_half_width",
              "pressure_drop_mean": "pressure_drop_half_width"}
+
+
+def command(case, directory, chosen, hours):
+    """Runs `case` through its example."""
+    example = "fluidized_bed_tubes" if case in VELOCITIES else "die_filling"
+    words = [sys.executable, str(common.ROOT / "examples" / example / "run.py"),
+             "--out", str(directory / case), "--ranks", str(chosen.ranks), "--hours", f"{hours:.4f}"]
+    words += (["--velocity", VELOCITIES[case], "--time", "3", "--start-up", "1"]
+              if case in VELOCITIES else ["--case", case])
+    return words + (["--paper"] if chosen.paper else [])
+
+
+def run_cases(chosen):
+    """Directories of the cases, all run to their ends; else the program ends here."""
+    end = time.monotonic() + 3600 * chosen.hours
+    for case in chosen.cases:
+        left = max((end - time.monotonic()) / 3600, 1e-3)
+        code = subprocess.run(command(case, chosen.run, chosen, left)).returncode
+        if code != 0:
+            sys.exit(code)
+    return [chosen.run / case for case in chosen.cases]
 
 
 def store(directory):
@@ -169,7 +197,12 @@ def page(runs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("directories", nargs="*", type=pathlib.Path, metavar="DIRECTORY")
-    for directory in parser.parse_args().directories:
+    parser.add_argument("--run", type=pathlib.Path, metavar="DIRECTORY", help="run the cases there first")
+    parser.add_argument("--paper", action="store_true", help="at the paper's size (hours each)")
+    parser.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES))
+    pieces.add_limits(parser)
+    chosen = parser.parse_args()
+    for directory in chosen.directories + (run_cases(chosen) if chosen.run else []):
         store(directory)
     runs = {case: common.read_json(STORE / f"{case}.json") for case in CASES
             if (STORE / f"{case}.json").exists()}

@@ -57,7 +57,7 @@ def draw_heights(axes, table):
 
 def draw_pressure(axes, series):
     axes.plot(series["time"], series["pressure_drop"], color="C3", linewidth=0.9)
-    axes.set(ylabel="pressure below the shoe / Pa")
+    axes.set(ylabel="pressure in the die / Pa")
 
 
 def draw_upper_edge(axes, table):
@@ -66,7 +66,7 @@ def draw_upper_edge(axes, table):
               color="0.5", linewidth=0.8, linestyle=":", label="lowest so far")
     for time in analysis.splashes(table["time"], table["upper_edge"]):
         axes.axvline(time, color="0.3", linewidth=0.8, linestyle="--", label=f"splash, {time:.2f} s")
-    axes.set(ylabel="upper edge of the grains / mm", ylim=(0, None))
+    axes.set(ylabel="upper edge / mm", ylim=(0, None))
     axes.legend(frameon=False, fontsize=8)
 
 
@@ -98,7 +98,7 @@ def draw(directory, picture, table, title):
         row[0].set_ylabel("z / mm")
     upper.colorbar(circles, ax=sections[0], label="vertical velocity / (m/s)", shrink=0.8)
     upper.colorbar(void, ax=sections[1], label="void fraction", shrink=0.8)
-    curves = lower.subplots(1, 3, sharex=True)
+    curves = lower.subplots(1, 3, sharex=True, gridspec_kw={"wspace": 0.05})
     draw_heights(curves[0], table)
     draw_pressure(curves[1], series)
     draw_upper_edge(curves[2], table)

@@ -37,16 +37,17 @@ class Case:
     grains: int  # at the paper's ratio
     top: float  # of the gas grid, m
     settle: float  # s
+    time: float  # after the gate opened, s
 
 
 # CP-102: table 3 of the paper (its text says 50 N/m). The spring of NONPAREIL is that text's.
 CP102 = Powder("CP-102", 90e-6, 1516.0, 100.0, 5, 2.0)
 NONPAREIL = Powder("NONPAREIL", 50e-6, 1483.0, 50.0, 10, 0.5)
 CASES = {
-    "2-1": Case(CP102, 0.04, 120_941, 0.1, 0.2),
-    "2-2": Case(CP102, 0.12, 362_821, 0.18, 0.35),
-    "3-1": Case(NONPAREIL, 0.04, 88_898, 0.1, 0.2),
-    "3-2": Case(NONPAREIL, 0.12, 266_693, 0.18, 0.35),
+    "2-1": Case(CP102, 0.04, 120_941, 0.1, 0.2, 0.8),
+    "2-2": Case(CP102, 0.12, 362_821, 0.18, 0.35, 1.2),
+    "3-1": Case(NONPAREIL, 0.04, 88_898, 0.1, 0.2, 1.2),
+    "3-2": Case(NONPAREIL, 0.12, 266_693, 0.18, 0.35, 1.6),
 }
 
 
@@ -59,21 +60,26 @@ def options():
     parser.add_argument("--grain", type=float, metavar="L", help="coarse-grain ratio l (default: twice the paper's)")
     parser.add_argument("--spring", type=float, metavar="K", help="spring constant of the original particle, N/m")
     parser.add_argument("--cell", type=float, metavar="MM", help="cell of the gas, mm (default 2.5)")
+    parser.add_argument("--kernel", type=float, metavar="MM",
+                        help="standard deviation of the kernel, mm (default: the larger of 0.8 cells and 1.2 grains)")
     parser.add_argument("--friction", type=float, default=FRICTION, metavar="MU",
                         help="coefficient of friction (default %(default)g)")
     parser.add_argument("--drag", default="gidaspow", metavar="NAME", help="drag closure (default %(default)s)")
-    parser.add_argument("--time", type=float, default=1.2, metavar="T",
-                        help="simulated time after the gate opened, s (default %(default)g)")
+    parser.add_argument("--time", type=float, metavar="T",
+                        help="simulated time after the gate opened, s (default 0.8 to 1.6, by case)")
     parser.add_argument("--gas-step", type=float, metavar="S",
                         help="largest gas step, s (default 1e-4; 5e-5 with --paper)")
     pieces.add_options(parser, "die_filling_CASE")
     chosen = parser.parse_args()
-    powder = CASES[chosen.case].powder
+    case = CASES[chosen.case]
+    powder = case.powder
     preset = ((powder.ratio, powder.spring, 1.25, 5e-5) if chosen.paper
               else (2 * powder.ratio, powder.cheap_spring, 2.5, 1e-4))
     for name, value in zip(("grain", "spring", "cell", "gas_step"), preset):
         if getattr(chosen, name) is None:
             setattr(chosen, name, value)
+    if chosen.time is None:
+        chosen.time = case.time
     pieces.require(parser, chosen, {"grain": 1, "ranks": 1, "time": 0, "spring": 0, "gas_step": 0,
                                     "cell": 0, "hours": 0})
     if 2 * powder.radius * chosen.grain > 3e-3:
@@ -89,6 +95,7 @@ def case_text(case, chosen, exchange):
                      ("cells = [20, 20, 40]", f"cells = {cells}"),
                      ('drag = "gidaspow"', f'drag = "{chosen.drag}"')):
         text = common.set_text(text, old, new)
+    text = common.set_kernel(text, chosen.kernel)
     text = common.set_key(text, "exchange_interval", exchange)
     return common.set_key(text, "largest_step", chosen.gas_step)
 
@@ -136,6 +143,8 @@ def main():
                                 "dem_step": job.variables["dt"], "simulated": chosen.time,
                                 "gas_cell": 1e-3 * chosen.cell, "spring": chosen.spring})
     analysis.print_comparison(common.read_summary(out))
+    if chosen.no_pictures:
+        return
     plot.draw(out, out / "result.png", table, powder_line(case, chosen))
     plot.animate(out, out / "filling.gif", table)
     print(f"\npictures  {out}/result.png, filling.gif")

@@ -13,12 +13,12 @@ sys.path.insert(0, str(HERE.parent))
 
 import common  # noqa: E402
 
-BASE = ["--grain", "16", "--cell", "2.5", "--time", "2", "--start-up", "0.8", "--no-pictures"]
+BASE = ["--grain", "20", "--cell", "2.5", "--time", "2", "--start-up", "0.8", "--no-pictures"]
 VARIANTS = {
     "base": [],
     "narrow kernel": ["--kernel", "1.25"],
     "wide kernel": ["--kernel", "4"],
-    "finer cells": ["--cell", "1.6667", "--kernel", "2"],
+    "finer cells": ["--cell", "1.6667", "--kernel", "2.4"],
     "stiffer spring": ["--spring", "2.5"],
     "less friction": ["--friction", "0.1"],
     "more friction": ["--friction", "0.5"],
@@ -28,7 +28,7 @@ VARIANTS = {
     "tubes apart": ["--tubes", "12.5", "37.5", "20", "40"],
     "tubes higher": ["--tubes", "15", "35", "25", "45"],
     "shorter gas step": ["--gas-step", "5e-5"],
-    "l = 20": ["--grain", "20"],
+    "l = 16": ["--grain", "16"],
     "l = 10": ["--grain", "10"],
 }
 

@@ -15,7 +15,8 @@ sys.path.insert(0, str(EXAMPLES))
 import common  # noqa: E402
 import pieces  # noqa: E402
 
-# Counts to `last` in a checkpoint file; each start tells its variables. SIGTERM: checkpoint and 75.
+# Counts to `time` in a checkpoint file; each start tells its variables. SIGTERM: checkpoint, the
+# words of gasgrain in its log, and an exit code that mpirun may make of it.
 STAND_IN = """
 import json, pathlib, signal, sys, time
 variables = json.loads(sys.argv[1])
@@ -31,7 +32,8 @@ def keep():
     state.symlink_to(str(step))
 def stop(*_):
     keep()
-    sys.exit(75)
+    pathlib.Path("log.liggghts").write_text("Ended by a signal at step %d" % step)
+    sys.exit(1)
 signal.signal(signal.SIGTERM, stop)
 with open("starts.txt", "a") as file:
     file.write(json.dumps({**variables, "at": step}) + "\\n")
