@@ -71,6 +71,19 @@ def ask_to_end(process):
             pass
 
 
+def run_gasgrain(directory, script, ranks, variables):
+    """start_gasgrain, to its end; fails when gasgrain does."""
+    process = start_gasgrain(directory, script, ranks, variables)
+    try:
+        code = process.wait()
+    except KeyboardInterrupt:
+        ask_to_end(process)
+        process.wait()
+        raise
+    if code != 0:
+        fail(f"gasgrain ended with exit code {code}; see {directory}/log.liggghts")
+
+
 def set_key(text, key, value):
     """`text` of a TOML file with the one number after `key =` replaced."""
     changed, count = re.subn(rf"(\b{key}\s*=\s*)[-+0-9.eE]+", rf"\g<1>{value:.10g}", text)
