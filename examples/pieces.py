@@ -121,16 +121,21 @@ def run_piece(job, how):
     record["pieces"].append(piece)
     write_record(job.directory, record)
     log = job.directory / "log.liggghts"
-    log.unlink(missing_ok=True)
+    summary = job.directory / "summary.json"
+    for file in (log, summary):
+        file.unlink(missing_ok=True)
     code = wait(common.start_gasgrain(job.directory, job.script, how.ranks,
                                       {**job.variables, **start}), how.hours)
     piece["seconds"] = time.time() - piece["began"]
-    stopped = log.exists() and STOPPED_WORDS in log.read_text(errors="replace")
+    # The summary is written at the end; a packing that is told to end ends without a checkpoint.
+    signalled = log.exists() and STOPPED_WORDS in log.read_text(errors="replace")
+    stopped = signalled or (code == 0 and not summary.exists())
     if code == 0 and not stopped:
         record["complete"] = job.variables["time"]
     write_record(job.directory, record)
     if stopped:
-        print("\nstopped with a checkpoint; the same command goes on")
+        print("\nstopped " + ("with a checkpoint" if signalled else "while the grains fell into a packing")
+              + "; the same command goes on")
         raise SystemExit(STOPPED)
     if code != 0:
         common.fail(f"gasgrain ended with exit code {code}; see {log}")

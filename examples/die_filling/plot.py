@@ -104,7 +104,7 @@ def draw(directory, picture, table, title):
     draw_upper_edge(curves[2], table)
     for axes in curves:
         axes.set(xlabel="time / s", xlim=(0, table["time"][-1]))
-    figure.savefig(picture, dpi=130)
+    figure.savefig(picture, dpi=110)
     pyplot.close(figure)
 
 

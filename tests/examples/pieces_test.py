@@ -41,6 +41,8 @@ while step < variables["time"]:
     step += 1
     time.sleep(variables["pause"])
 keep()
+if not variables["silent"]:
+    pathlib.Path("summary.json").write_text("{}")
 sys.exit(variables["code"])
 """
 
@@ -63,7 +65,8 @@ class Pieces(unittest.TestCase):
         return subprocess.Popen([sys.executable, "-c", STAND_IN, json.dumps(variables)], cwd=directory)
 
     def run_piece(self, hours=1.0, fresh=False, **changes):
-        variables = {"k": 1.0, "velocity": 0.2, "time": 3, "pause": 0.0, "code": 0, **changes}
+        variables = {"k": 1.0, "velocity": 0.2, "time": 3, "pause": 0.0, "code": 0,
+                     "silent": False, **changes}
         job = pieces.Job(self.directory, "bed.in", variables, packing=("k",))
         pieces.run_piece(job, types.SimpleNamespace(ranks=1, hours=hours, fresh=fresh))
         return job
@@ -113,6 +116,12 @@ class Pieces(unittest.TestCase):
             self.run_piece(code=3)
         self.assertIn("exit code 3", str(failed.exception))
         self.assertIn("log.liggghts", str(failed.exception))
+
+    def test_end_without_a_summary_is_not_complete(self):
+        with self.assertRaises(SystemExit) as stopped:
+            self.run_piece(silent=True)
+        self.assertEqual(stopped.exception.code, 75)
+        self.assertNotIn("complete", pieces.read_record(self.directory))
 
     def test_killed_piece_counts_until_its_last_row(self):
         record = {"pieces": [{"began": 1000.0, "seconds": None}]}
