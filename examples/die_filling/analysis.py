@@ -148,14 +148,14 @@ def quantities(case, table, series, packed):
         quantity("final_die_height", table["die_height"][last].mean(), "m", DIE_HEIGHT, 1e-3,
                  "filled as densely as the shoe was"),
         quantity("die_full_time", time_full(table), "s", 0.6 if case == "2-1" else None,
-                 0.1 if case == "2-1" else None, paper),
+                 0.1 if case == "2-1" else None, paper if case == "2-1" else ""),
         quantity("splash_count", len(found), "-", count, 0.0, paper),
         quantity("largest_rise", rise(table["upper_edge"]).max(), "m"),
         quantity("largest_die_pressure", series["pressure_drop"].max(), "Pa"),
         quantity("plateau_begin", begin, "s", 0.2 if case == "3-1" else None,
-                 0.1 if case == "3-1" else None, paper),
+                 0.1 if case == "3-1" else None, paper if case == "3-1" else ""),
         quantity("plateau_end", end, "s", 0.6 if case == "3-1" else None,
-                 0.1 if case == "3-1" else None, paper),
+                 0.1 if case == "3-1" else None, paper if case == "3-1" else ""),
         quantity("plateau_pressure", level, "Pa"),
     ]
     for number, time in enumerate(found, 1):
