@@ -197,7 +197,8 @@ def page(runs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("directories", nargs="*", type=pathlib.Path, metavar="DIRECTORY")
-    parser.add_argument("--run", type=pathlib.Path, metavar="DIRECTORY", help="run the cases there first")
+    parser.add_argument("--run", type=pathlib.Path, metavar="DIRECTORY",
+                        help="run the cases there first")
     parser.add_argument("--paper", action="store_true", help="at the paper's size (hours each)")
     parser.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES))
     pieces.add_limits(parser)

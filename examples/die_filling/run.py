@@ -54,19 +54,27 @@ CASES = {
 def options():
     parser = argparse.ArgumentParser(prog="examples/run die_filling", description=__doc__)
     parser.add_argument("--case", choices=CASES, default="2-1",
-                        help="2-1, 2-2: CP-102, 40 and 120 mm in the shoe; 3-1, 3-2: NONPAREIL (default %(default)s)")
+                        help="2-1, 2-2: CP-102, 40 and 120 mm in the shoe; 3-1, 3-2: NONPAREIL "
+                             "(default %(default)s)")
     parser.add_argument("--paper", action="store_true",
-                        help="grains, spring and 1.25 mm cells as in the paper (hours); else twice its l")
-    parser.add_argument("--grain", type=float, metavar="L", help="coarse-grain ratio l (default: twice the paper's)")
-    parser.add_argument("--spring", type=float, metavar="K", help="spring constant of the original particle, N/m")
-    parser.add_argument("--cell", type=float, metavar="MM", help="cell of the gas, mm (default 2.5)")
+                        help="grains, spring and 1.25 mm cells as in the paper (hours); else twice"
+                             " its l")
+    parser.add_argument("--grain", type=float, metavar="L",
+                        help="coarse-grain ratio l (default: twice the paper's)")
+    parser.add_argument("--spring", type=float, metavar="K",
+                        help="spring constant of the original particle, N/m")
+    parser.add_argument("--cell", type=float, metavar="MM",
+                        help="cell of the gas, mm (default 2.5)")
     parser.add_argument("--kernel", type=float, metavar="MM",
-                        help="standard deviation of the kernel, mm (default: the larger of 0.8 cells and 1.2 grains)")
+                        help="standard deviation of the kernel, mm (default: the larger of 0.8 "
+                             "cells and 1.2 grains)")
     parser.add_argument("--friction", type=float, default=FRICTION, metavar="MU",
                         help="coefficient of friction (default %(default)g)")
-    parser.add_argument("--drag", default="gidaspow", metavar="NAME", help="drag closure (default %(default)s)")
+    parser.add_argument("--drag", default="gidaspow", metavar="NAME",
+                        help="drag closure (default %(default)s)")
     parser.add_argument("--time", type=float, metavar="T",
-                        help="simulated time after the gate opened, s (default 0.8 to 1.6, by case)")
+                        help="simulated time after the gate opened, s (default 0.8 to 1.6, by "
+                             "case)")
     parser.add_argument("--gas-step", type=float, metavar="S",
                         help="largest gas step, s (default 1e-4; 5e-5 with --paper)")
     pieces.add_options(parser, "die_filling_CASE")

@@ -56,13 +56,15 @@ def options():
     parser.add_argument("--grain", type=float, metavar="L",
                         help="coarse-grain ratio l; the paper takes 5 (default 10)")
     parser.add_argument("--velocity", type=float, default=0.2, metavar="U",
-                        help="superficial gas velocity, m/s; the paper takes 0.2 and 0.3 (default %(default)g)")
+                        help="superficial gas velocity, m/s; the paper takes 0.2 and 0.3 (default "
+                             "%(default)g)")
     parser.add_argument("--time", type=float, metavar="T",
                         help="simulated time with gas, s (default 0.8)")
     parser.add_argument("--start-up", type=float, metavar="T",
                         help="time that the means leave out, s (default 0.3)")
     parser.add_argument("--spring", type=float, metavar="K",
-                        help="spring constant of the original particle, N/m; the paper takes 50 (default 0.25)")
+                        help="spring constant of the original particle, N/m; the paper takes 50 "
+                             "(default 0.25)")
     parser.add_argument("--friction", type=float, default=0.3, metavar="MU",
                         help="coefficient of friction (default %(default)g)")
     parser.add_argument("--gas-step", type=float, default=1e-4, metavar="S",
@@ -70,10 +72,13 @@ def options():
     parser.add_argument("--cell", type=float, default=1.25, metavar="MM",
                         help="cell of the gas, mm (default %(default)g)")
     parser.add_argument("--kernel", type=float, metavar="MM",
-                        help="standard deviation of the kernel, mm (default: the larger of 0.8 cells and 1.2 grains)")
-    parser.add_argument("--drag", default="gidaspow", metavar="NAME", help="drag closure (default %(default)s)")
+                        help="standard deviation of the kernel, mm (default: the larger of 0.8 "
+                             "cells and 1.2 grains)")
+    parser.add_argument("--drag", default="gidaspow", metavar="NAME",
+                        help="drag closure (default %(default)s)")
     parser.add_argument("--tubes", type=float, nargs=4, default=(15, 35, 20, 40), metavar=("X1", "X2", "Z1", "Z2"),
-                        help="axes of the four tubes, mm; the paper does not print them (default 15 35 20 40)")
+                        help="axes of the four tubes, mm; the paper does not print them (default "
+                             "15 35 20 40)")
     pieces.add_options(parser, "fluidized_bed_tubes")
     chosen = parser.parse_args()
     preset = (5.0, 50.0, 3.0, 1.0) if chosen.paper else (10.0, 0.25, 0.8, 0.3)
