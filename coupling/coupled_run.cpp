@@ -73,7 +73,10 @@ void CoupledRun::begin(std::span<Vec3> forces) {
   row_.exchange = coupling_.begin(forces, host_.records(), host_.time());
   monitor_->observe(coupling_.void_fraction());
   held_force_ = row_.exchange.force_on_grains;
-  audit_.begin(host_.totals(), case_.options.feedback);
+  row_.grains = host_.totals();
+  audit_.begin(row_.grains, case_.options.feedback);
+  energy_.begin(row_.grains);
+  note_gas_power(forces);
   host_.take_wall_impulse();
   host_.take_largest_overlap();
   choose_next_interval();
@@ -134,6 +137,7 @@ void CoupledRun::continue_run() {
 void CoupledRun::force_applied(double dem_step) {
   audit_.add_received(0.5 * dem_step * (applied_force_ + held_force_));
   applied_force_ = held_force_;
+  traffic_.force_applied(dem_step);
   elapsed_ += dem_step;
 }
 
@@ -143,9 +147,12 @@ bool CoupledRun::step_finished() {
 
 void CoupledRun::exchange(std::span<Vec3> forces) {
   stop_dem_clock();
+  energy_.add_gas_work(0.5 * elapsed_ * (gas_power_ + host_.gas_power()));
   row_.exchange = coupling_.exchange(forces, host_.records(), elapsed_);
   held_force_ = row_.exchange.force_on_grains;
   audit_.add_exchange(row_.exchange);
+  traffic_.exchanged();
+  note_gas_power(forces);
   statistics_.grain_steps +=
       double(row_.exchange.grains_inside + row_.exchange.grains_outside) * steps_since_exchange_;
   steps_since_exchange_ = 0;
@@ -158,6 +165,30 @@ void CoupledRun::exchange(std::span<Vec3> forces) {
   statistics_.wall_times.gas += row_.exchange.gas_seconds;
   statistics_.wall_times.coupling += MPI_Wtime() - clock_ - row_.exchange.gas_seconds;
   start_clock();
+}
+
+void CoupledRun::note_gas_power(std::span<const Vec3> forces) {
+  gas_power_ = 0.0;
+  std::size_t n = 0;
+  for (const GrainRecord& grain : host_.records()) gas_power_ += forces[n++].dot(grain.velocity);
+}
+
+// Since the last audit.
+double CoupledRun::time_of_passage(GrainTraffic::Moment moment, double dem_step) const {
+  const double half = moment == GrainTraffic::Moment::mid_step ? 0.5 * dem_step : 0.0;
+  return audit_.interval() + elapsed_ + half;
+}
+
+void CoupledRun::grain_appeared(GrainPassage passage, GrainTraffic::Moment moment,
+                                double dem_step) {
+  passage.time = time_of_passage(moment, dem_step);
+  traffic_.appeared(passage);
+}
+
+void CoupledRun::grain_left(GrainPassage passage, const Vec3& held, GrainTraffic::Moment moment,
+                            double dem_step) {
+  passage.time = time_of_passage(moment, dem_step);
+  traffic_.left(passage, held, moment);
 }
 
 void CoupledRun::observe_bed(const ExchangeReport& report) {
@@ -183,17 +214,45 @@ void CoupledRun::audit() {
   const int axis = monitor_->vertical().axis;
   collect_from_host();
   row_.grains = host_.totals();
-  row_.balance = audit_.close(row_.grains, wall_impulse_, host_.gravity());
+  const TrafficSums traffic = traffic_.take(communicator_);
+  row_.balance = audit_.close(row_.grains, traffic, wall_impulse_, host_.gravity());
+  row_.energy = energy_.close(row_.grains, traffic, host_.gravity(), communicator_);
   wall_impulse_.setZero();
   const double weight = std::abs(row_.balance.grain_weight[axis]);
   row_.momentum_residual =
       weight > 0 ? row_.balance.residual[axis] / weight : row_.balance.residual[axis];
+  const double store = row_.energy.kinetic + row_.energy.rotation + row_.energy.elastic;
+  row_.heating = store > 0 ? std::max(0.0, -row_.energy.dissipated) / store : 0.0;
   row_.overlap = std::exchange(overlap_, {});
   RunExtremes& extremes = statistics_.extremes;
   extremes.overlap.length = std::max(extremes.overlap.length, row_.overlap.length);
   extremes.overlap.relative = std::max(extremes.overlap.relative, row_.overlap.relative);
   extremes.momentum_residual =
       std::max(extremes.momentum_residual, std::abs(row_.momentum_residual));
+  extremes.heating = std::max(extremes.heating, row_.heating);
+  statistics_.note_energy(row_.energy, traffic);
+}
+
+// After the row is in the file: a run that stops shows the row that stopped it.
+void CoupledRun::judge() {
+  const ExchangeReport& exchange = row_.exchange;
+  const bool has_weight = row_.balance.grain_weight[monitor_->vertical().axis] != 0.0;
+  const AuditResiduals residuals{.momentum = has_weight ? row_.momentum_residual : 0.0,
+                                 .exchange = exchange.third_law_residual,
+                                 .pressure_force = exchange.pressure_residual,
+                                 .solid_volume = exchange.solid_volume_residual,
+                                 .divergence = exchange.divergence,
+                                 .heating = row_.heating};
+  const AuditCauses causes{.unmeasured_walls = host_.unmeasured_walls(),
+                           .unexplained_grains = row_.balance.unexplained_grains};
+  const AuditBounds& bounds = case_.options.audit;
+  for (const AuditViolation& violation : violations(bounds, residuals, causes)) {
+    const std::string message = text("audit at t = %.6g s: ", row_.time) + violation.text;
+    if (bounds.on_violation == OnViolation::stop) throw UserError(message);
+    if (statistics_.note_violation(violation.name)) {
+      host_.print("WARNING: " + message + " (further ones of this kind are counted)\n");
+    }
+  }
 }
 
 void CoupledRun::choose_next_interval() {
@@ -207,6 +266,7 @@ void CoupledRun::write_outputs(double time) {
         coupling_, *monitor_, monitors_.wants_labels() ? host_.labels() : std::vector<double>());
     statistics_.note_monitors(row_.time, row_.balance.interval, row_.monitors);
     if (files_) files_->add_row(series_values(row_, monitors_.names(), monitor_->vertical().axis));
+    judge();
   }
   if (frame_schedule_.due(time)) write_frame(time);
   if (progress_schedule_.due(time)) {
@@ -260,6 +320,9 @@ void CoupledRun::restore(const std::string& path) {
 void CoupledRun::visit_state(cfd::StateArchive& archive) {
   coupling_.visit_state(archive);
   audit_.visit_state(archive);
+  energy_.visit_state(archive);
+  traffic_.visit_state(archive);
+  archive.partial_sums("gas_power", {&gas_power_, 1});
   monitors_.visit_state(archive);
   statistics_.visit_state(archive);
   archive.number_of("exchange_dem_steps", interval_.dem_steps);
@@ -293,9 +356,10 @@ void CoupledRun::finish_run() {
   const BedMeans means = bed_means(statistics_, *monitor_, case_.options.average_from);
   host_.print(closing_text(row_, statistics_, times, means));
   if (files_) {
-    files_->write({.case_name = case_.options.case_name,
-                   .commit = source_commit(),
-                   .quantities = summary_quantities(statistics_, times, means, monitors_.names())});
+    files_->write(
+        {.case_name = case_.options.case_name,
+         .commit = source_commit(),
+         .quantities = summary_quantities(row_, statistics_, times, means, monitors_.names())});
     probes_->flush();
   }
 }

@@ -7,6 +7,8 @@
 //   force_applied(dt)   in every DEM step, after the held forces were added to the grains
 //   step_finished()     at the end of every DEM step; true when an exchange is due
 //   exchange()          when step_finished() said so
+//   grain_appeared()    for every grain of this rank that is inserted, before its first force
+//   grain_left()        for every grain of this rank that leaves the box, before it is deleted
 //   finish_run()        at the end of every run
 //   pause()             instead, when the run goes on after a checkpoint
 //   save()              between runs; restore() instead of begin(), before the first set-up
@@ -19,6 +21,7 @@
 #include "cfd/probes.hpp"
 #include "coupling/bed_monitor.hpp"
 #include "coupling/dem_host.hpp"
+#include "coupling/energy_audit.hpp"
 #include "coupling/gas_coupling.hpp"
 #include "coupling/monitors.hpp"
 #include "coupling/run_files.hpp"
@@ -33,7 +36,9 @@ struct SeriesRow {
   BedState bed;
   double weight_over_area = 0.0;  // Pa
   MomentumBalance balance;
+  EnergyBalance energy;
   double momentum_residual = 0.0;  // vertical, over the grains' weight
+  double heating = 0.0;            // energy from nowhere over kinetic and elastic energy
   ExchangeReport exchange;
   GrainTotals grains;
   plugins::LargestOverlap overlap;
@@ -54,6 +59,10 @@ class CoupledRun {
   // Whether the next step_finished() will be true.
   bool exchange_due() const { return steps_since_exchange_ + 1 >= interval_.dem_steps; }
   void exchange(std::span<Vec3> forces);
+  // `passage`.time is set here; `held` is the gas force on the grain, N.
+  void grain_appeared(GrainPassage passage, GrainTraffic::Moment moment, double dem_step);
+  void grain_left(GrainPassage passage, const Vec3& held, GrainTraffic::Moment moment,
+                  double dem_step);
   void finish_run();
   void pause();
   // Everything but the grains and the forces they hold, into or from an HDF5 file. The host takes
@@ -87,6 +96,9 @@ class CoupledRun {
   void stop_dem_clock();
   void observe_bed(const ExchangeReport& report);
   void audit();
+  void judge();
+  double time_of_passage(GrainTraffic::Moment moment, double dem_step) const;
+  void note_gas_power(std::span<const Vec3> forces);
   void choose_next_interval();
   void write_outputs(double time);
   void write_frame(double time);
@@ -100,6 +112,8 @@ class CoupledRun {
   Monitors monitors_;
   std::optional<cfd::Probes> probes_;  // with files_
   MomentumAudit audit_;
+  EnergyAudit energy_;
+  GrainTraffic traffic_;
   RunStatistics statistics_;
   std::string directory_;            // of the output, "": none
   std::unique_ptr<RunFiles> files_;  // from begin() or restore() on; null: no output directory
@@ -112,6 +126,7 @@ class CoupledRun {
   double elapsed_ = 0.0;               // s since the last exchange
   Vec3 held_force_ = Vec3::Zero();     // N, sum over the grains
   Vec3 applied_force_ = Vec3::Zero();  // the one in the integrator's present force
+  double gas_power_ = 0.0;             // W, at the last exchange on this rank's grains then
   Vec3 wall_impulse_ = Vec3::Zero();   // N s, of walls on grains, collected since the last audit
   plugins::LargestOverlap overlap_;    // likewise
   double last_frame_time_ = -1.0;      // s

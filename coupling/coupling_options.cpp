@@ -24,6 +24,7 @@ CouplingOptions read_coupling_options(const ConfigTable& table, const cfd::GasCa
   options.progress_interval = table.number_or("progress_interval", 0.0, Range::positive());
   options.case_name =
       table.text_or("case_name", std::filesystem::path(table.file()).stem().string());
+  options.audit = read_audit_bounds(table.table_or_empty("audit"));
   options.monitor = read_monitor_options(table.table_or_empty("monitor"), gas_case.grid);
   table.reject_unknown_keys();
   return options;

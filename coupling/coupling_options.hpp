@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cfd/gas_case.hpp"
+#include "coupling/audit_bounds.hpp"
 #include "coupling/momentum_exchange.hpp"
 #include "coupling/monitor_options.hpp"
 #include "coupling/shared/config_table.hpp"
@@ -26,6 +27,7 @@ struct CouplingOptions {
   double progress_interval = 0.0;  // s of gas time between progress lines; 0 = as the frames
   std::string case_name;           // in summary.json
   MonitorOptions monitor;
+  AuditBounds audit;
 };
 
 // Throws UserError: unknown keys or closures, values out of range.

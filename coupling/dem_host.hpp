@@ -48,6 +48,7 @@ class DemHost {
   // One number per grain that moves with it: 0 until it is set.
   virtual void set_labels(const std::vector<double>& labels) = 0;  // in the order of records()
   virtual std::vector<double> labels() const = 0;
+  virtual double gas_power() const = 0;  // of the forces that this rank's grains hold, W
 
   // Collective.
   virtual GrainTotals totals() const = 0;

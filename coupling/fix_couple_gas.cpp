@@ -17,6 +17,7 @@
 #include "coupling/shared/error.hpp"
 #include "liggghts_plugins/checkpoint.hpp"
 #include "liggghts_plugins/grain_wall.hpp"
+#include "liggghts_plugins/pair_gran_cgm.hpp"
 
 namespace gasgrain::coupling {
 
@@ -91,7 +92,8 @@ void FixCoupleGas::check_host(const std::string& where) const {
 }
 
 int FixCoupleGas::setmask() {
-  return LAMMPS_NS::FixConst::POST_FORCE | LAMMPS_NS::FixConst::END_OF_STEP;
+  using namespace LAMMPS_NS::FixConst;
+  return PRE_EXCHANGE | POST_FORCE | END_OF_STEP;
 }
 
 void FixCoupleGas::setup(int) {
@@ -103,6 +105,39 @@ void FixCoupleGas::setup(int) {
     hold(forces);
   }
   add_held_forces();
+}
+
+void FixCoupleGas::setup_pre_exchange() {
+  tell_who_leaves(GrainTraffic::Moment::between_steps);
+}
+
+void FixCoupleGas::pre_exchange() {
+  tell_who_leaves(GrainTraffic::Moment::mid_step);
+}
+
+GrainPassage FixCoupleGas::passage(int i) const {
+  const Vec3 velocity = column(atom->v[i]);
+  const double spin = atom->radius[i] * column(atom->omega[i]).norm();
+  return {.mass = atom->rmass[i],
+          .position = column(atom->x[i]),
+          .velocity = velocity,
+          .energy = 0.5 * atom->rmass[i] * (velocity.squaredNorm() + 0.4 * spin * spin),
+          .time = 0.0};
+}
+
+// Grains beyond a side with a fixed boundary are about to be deleted.
+void FixCoupleGas::tell_who_leaves(GrainTraffic::Moment moment) {
+  if (!run_->begun()) return;
+  for_each_grain([&](int i) {
+    for (int d = 0; d < 3; ++d) {
+      const double x = atom->x[i][d];
+      const bool below = domain->boundary[d][0] == 1 && x < domain->boxlo[d];
+      const bool above = domain->boundary[d][1] == 1 && x >= domain->boxhi[d];
+      if (!below && !above) continue;
+      run_->grain_left(passage(i), held_[i], moment, update->dt);
+      return;
+    }
+  });
 }
 
 void FixCoupleGas::post_force(int) {
@@ -229,6 +264,11 @@ void FixCoupleGas::copy_arrays(int from, int to, int) {
 void FixCoupleGas::set_arrays(int i) {
   held_[i].setZero();
   if (!labels_.empty()) labels_[i] = 0.0;
+  if (!run_->begun() || !(atom->mask[i] & groupbit)) return;
+  const bool in_step = update->whichflag == 1 && update->setupflag == 0;
+  run_->grain_appeared(
+      passage(i), in_step ? GrainTraffic::Moment::mid_step : GrainTraffic::Moment::between_steps,
+      update->dt);
 }
 
 int FixCoupleGas::pack_exchange(int i, double* buffer) {
@@ -323,18 +363,46 @@ std::vector<double> FixCoupleGas::labels() const {
   return result;
 }
 
+double FixCoupleGas::gas_power() const {
+  double power = 0.0;
+  for_each_grain([&](int i) { power += held_[i].dot(column(atom->v[i])); });
+  return power;
+}
+
 GrainTotals FixCoupleGas::totals() const {
-  double sums[6] = {};  // count, mass, momentum, kinetic energy
+  GrainTotals mine;
   for_each_grain([&](int i) {
-    const double mass = atom->rmass[i];
-    const Vec3 velocity = column(atom->v[i]);
-    sums[0] += 1;
-    sums[1] += mass;
-    for (int d = 0; d < 3; ++d) sums[2 + d] += mass * velocity[d];
-    sums[5] += 0.5 * mass * velocity.squaredNorm();
+    const GrainPassage grain = passage(i);
+    const double translation = 0.5 * grain.mass * grain.velocity.squaredNorm();
+    ++mine.count;
+    mine.mass += grain.mass;
+    mine.momentum += grain.mass * grain.velocity;
+    mine.mass_moment += grain.mass * grain.position;
+    mine.kinetic_energy += translation;
+    mine.rotation_energy += grain.energy - translation;
   });
-  MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, communicator_);
-  return {std::lround(sums[0]), sums[1], {sums[2], sums[3], sums[4]}, sums[5]};
+  if (const plugins::PairGranCgm* pair = plugins::pair_gran_cgm(*lmp))
+    mine.elastic_energy = pair->spring_energy();
+  const Vec3 &p = mine.momentum, &m = mine.mass_moment;
+  double sums[] = {double(mine.count),
+                   mine.mass,
+                   p[0],
+                   p[1],
+                   p[2],
+                   m[0],
+                   m[1],
+                   m[2],
+                   mine.kinetic_energy,
+                   mine.rotation_energy,
+                   mine.elastic_energy};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 11, MPI_DOUBLE, MPI_SUM, communicator_);
+  return {.count = std::lround(sums[0]),
+          .mass = sums[1],
+          .momentum = column(sums + 2),
+          .mass_moment = column(sums + 5),
+          .kinetic_energy = sums[8],
+          .rotation_energy = sums[9],
+          .elastic_energy = sums[10]};
 }
 
 GrainSizes FixCoupleGas::sizes() const {

@@ -37,6 +37,8 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
   ~FixCoupleGas() override;
 
   int setmask() override;
+  void setup_pre_exchange() override;
+  void pre_exchange() override;
   void setup(int vflag) override;
   void post_force(int vflag) override;
   void end_of_step() override;
@@ -75,12 +77,15 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
   GrainState grain_state() const override;
   void set_labels(const std::vector<double>& labels) override;
   std::vector<double> labels() const override;
+  double gas_power() const override;
   GrainTotals totals() const override;
   GrainSizes sizes() const override;
   Vec3 take_wall_impulse() override;
   plugins::LargestOverlap take_largest_overlap() override;
   void print(const std::string& text) override;
 
+  GrainPassage passage(int i) const;
+  void tell_who_leaves(GrainTraffic::Moment moment);
   void check_host(const std::string& where) const;
   template <class Visit>
   void for_each_grain(Visit&& visit) const;

@@ -1,7 +1,7 @@
 // Gas:     d P_gas    = sides + bodies + weight + through sides - (p on grains) + drag
-// Grains:  d P_grains = weight + walls + received
+// Grains:  d P_grains = weight + walls + received + appeared - left
 // Sum:     d P_gas + d P_grains = sides + weights + walls + bodies + through sides
-//                                 - (drag on walls) + (received - given)
+//                                 - (drag on walls) + (received - given) + appeared - left
 // with given = -drag - (drag on walls) + (p on grains), which the exchange makes equal to the sum
 // of the grains' forces times the interval. Here it enters as that sum, so that an error of the
 // exchange shows in the residual.
@@ -32,29 +32,24 @@ void visit(cfd::StateArchive& archive, const std::string& name, Vec3& value) {
 
 }  // namespace
 
-void visit_state(cfd::StateArchive& archive, GrainTotals& totals) {
-  archive.number_of("grain_count", totals.count);
-  archive.number("grain_mass", totals.mass);
-  visit(archive, "grain_momentum", totals.momentum);
-  archive.number("grain_kinetic_energy", totals.kinetic_energy);
-}
-
 void MomentumAudit::visit_state(cfd::StateArchive& archive) {
   archive.number("audit_interval", interval_);
   visit(archive, "given", given_);
   visit(archive, "received", received_);
   visit(archive, "drag_on_walls", drag_on_walls_);
-  coupling::visit_state(archive, last_);
+  coupling::visit_state(archive, "", last_);
   for (std::size_t n = 0; n < momentum_rows.size(); ++n)
     visit(archive, "gas_row_" + std::to_string(n), gas_.*momentum_rows[n]);
 }
 
-MomentumBalance MomentumAudit::close(const GrainTotals& now, const Vec3& walls,
-                                     const Vec3& gravity) {
+MomentumBalance MomentumAudit::close(const GrainTotals& now, const TrafficSums& traffic,
+                                     const Vec3& walls, const Vec3& gravity) {
   MomentumBalance balance;
   balance.interval = interval_;
   balance.grain_change = now.momentum - last_.momentum;
-  balance.grain_weight = 0.5 * (last_.mass + now.mass) * interval_ * gravity;
+  balance.grain_weight = ((last_.mass + traffic.mass) * interval_ - traffic.mass_time) * gravity;
+  balance.passage = traffic.momentum;
+  balance.unexplained_grains = now.count - last_.count - traffic.appeared + traffic.left;
   balance.walls_on_grains = walls;
   if (feedback_ == Feedback::two_way) {
     balance.gas_change = gas_.stored;
@@ -63,14 +58,14 @@ MomentumBalance MomentumAudit::close(const GrainTotals& now, const Vec3& walls,
     balance.bodies_on_gas = gas_.body_pressure + gas_.body;
     balance.walls_by_drag = -drag_on_walls_;
     balance.gas_through_sides = gas_.convection + gas_.viscous;
-    balance.in_transit = received_ - given_;
+    balance.in_transit = received_ - traffic.undelivered - given_;
   } else {
-    balance.in_transit = received_;
+    balance.in_transit = received_ - traffic.undelivered;
   }
   balance.residual = balance.grain_change + balance.gas_change - balance.side_pressure -
                      balance.grain_weight - balance.gas_weight - balance.walls_on_grains -
                      balance.bodies_on_gas - balance.walls_by_drag - balance.gas_through_sides -
-                     balance.in_transit;
+                     balance.in_transit - balance.passage;
   begin(now, feedback_);
   return balance;
 }

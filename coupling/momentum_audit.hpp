@@ -4,16 +4,10 @@
 #include "cfd/state_archive.hpp"
 #include "coupling/coupling_options.hpp"
 #include "coupling/exchange_report.hpp"
+#include "coupling/grain_totals.hpp"
+#include "coupling/grain_traffic.hpp"
 
 namespace gasgrain::coupling {
-
-// What the grains have at one moment, summed over all ranks.
-struct GrainTotals {
-  long count = 0;
-  double mass = 0.0;             // kg
-  Vec3 momentum = Vec3::Zero();  // kg m/s
-  double kinetic_energy = 0.0;   // J, translation
-};
 
 // Impulses in N s over the interval. Gas and grains are one system; the change of its momentum must
 // equal what acts on it from outside, up to round-off and the tolerance of the pressure solve.
@@ -31,10 +25,10 @@ struct MomentumBalance {
                                           // form) and shear at the sides
   Vec3 in_transit = Vec3::Zero();         // gas force: received by the grains minus given by the
                                           // gas; grains receive an interval later
+  Vec3 passage = Vec3::Zero();            // of grains that appeared, minus those that left
   Vec3 residual = Vec3::Zero();
+  long unexplained_grains = 0;  // that appeared (left: negative) without notice
 };
-
-void visit_state(cfd::StateArchive& archive, GrainTotals& totals);
 
 class MomentumAudit {
  public:
@@ -47,9 +41,12 @@ class MomentumAudit {
   // The interval under way.
   void visit_state(cfd::StateArchive& archive);
 
+  double interval() const { return interval_; }  // s since begin() or the last close()
+
   // Balance since begin() or the last close(), and starts the next interval. `walls` is the impulse
   // of walls on grains since then, `gravity` in m/s^2.
-  MomentumBalance close(const GrainTotals& now, const Vec3& walls, const Vec3& gravity);
+  MomentumBalance close(const GrainTotals& now, const TrafficSums& traffic, const Vec3& walls,
+                        const Vec3& gravity);
 
  private:
   Feedback feedback_ = Feedback::two_way;

@@ -147,6 +147,20 @@ std::string closing_text(const SeriesRow& row, const RunStatistics& statistics,
   }
   out += text("  largest overlap      %.3g um, %.3g %% of the grain diameter\n",
               extremes.overlap.length * 1e6, 100 * extremes.overlap.relative);
+  out += text("  energy               gas did %.3g J on the grains, %.3g J dissipated",
+              statistics.gas_work, statistics.dissipated);
+  out += extremes.heating > 0
+             ? text("; most from nowhere %.2g of kinetic and elastic energy\n", extremes.heating)
+             : "\n";
+  if (statistics.appeared + statistics.left > 0) {
+    out += text("  grains               %ld inserted, %ld left the box\n", statistics.appeared,
+                statistics.left);
+  }
+  for (const auto& [name, count] : statistics.violations) {
+    if (count > 0) {
+      out += text("  audit                %s beyond its bound in %ld rows\n", name.c_str(), count);
+    }
+  }
   out += text("  closure limited      %ld times; at most %ld grains outside the gas grid\n",
               extremes.limited, extremes.grains_outside);
   out += text("  wall time            %s: %s (%.3g + %.3g + %.3g s)\n",
@@ -188,7 +202,15 @@ std::vector<NamedValue> series_values(const SeriesRow& row,
       {"limited_closures", double(exchange.limited)},
       {"grains_inside", double(exchange.grains_inside)},
       {"grains_outside", double(exchange.grains_outside)},
-      {"kinetic_energy", row.grains.kinetic_energy},
+      {"grain_passage", balance.passage[axis] * per_time},
+      {"unexplained_grains", double(balance.unexplained_grains)},
+      {"kinetic_energy", row.energy.kinetic},
+      {"rotation_energy", row.energy.rotation},
+      {"potential_energy", row.energy.potential},
+      {"elastic_energy", row.energy.elastic},
+      {"gas_power", row.energy.gas_work * per_time},
+      {"dissipation", row.energy.dissipated * per_time},
+      {"heating", row.heating},
       {"largest_overlap", row.overlap.length},
       {"largest_relative_overlap", row.overlap.relative},
       {"interval", exchange.interval},
@@ -200,13 +222,15 @@ std::vector<NamedValue> series_values(const SeriesRow& row,
   return values;
 }
 
-std::vector<Quantity> summary_quantities(const RunStatistics& statistics, const WallTimes& times,
-                                         const BedMeans& means,
+std::vector<Quantity> summary_quantities(const SeriesRow& row, const RunStatistics& statistics,
+                                         const WallTimes& times, const BedMeans& means,
                                          const std::vector<std::string>& monitors) {
   const RunExtremes& extremes = statistics.extremes;
   const auto half_width = [](const TimeMean& mean) {
     return mean.half_width.value_or(std::numeric_limits<double>::quiet_NaN());
   };
+  double rows_beyond = 0.0;
+  for (const auto& [name, count] : statistics.violations) rows_beyond += double(count);
   const std::string batches = "95 % interval of ten batch means";
   std::vector<Quantity> quantities = {
       {"bed_height_mean",
@@ -228,12 +252,41 @@ std::vector<Quantity> summary_quantities(const RunStatistics& statistics, const 
       {"pressure_drop_weight_over_area", means.weight_over_area, "Pa", {}, {}, "weight / area"},
       {"average_from", means.from, "s", {}, {}, "start of the time means"},
       {"average_to", means.to, "s", {}, {}, "end of the time means"},
-      {"momentum_balance_residual", extremes.momentum_residual, "-", 0.0, 0.005,
+      {"momentum_balance_residual", extremes.momentum_residual, "-", 0.0, 1e-6,
        "vertical balance of gas and grains over the weight, largest of all intervals"},
       {"third_law_residual", extremes.third_law_residual, "-", 0.0, 1e-12,
        "drag on grains against drag on gas, over the sum of magnitudes"},
       {"solid_volume_residual", extremes.solid_volume_residual, "-", 0.0, 1e-10,
        "solid volume in the cells against the grains'"},
+      {"pressure_force_residual", extremes.pressure_residual, "-", 0.0, 1e-5,
+       "-V grad p on grains against that of the gas, over the sum of magnitudes"},
+      {"heating_max",
+       extremes.heating,
+       "-",
+       {},
+       {},
+       "energy from nowhere in an interval over kinetic and elastic energy"},
+      {"gas_work", statistics.gas_work, "J", {}, {}, "of the gas on the grains, audited intervals"},
+      {"dissipated_energy",
+       statistics.dissipated,
+       "J",
+       {},
+       {},
+       "by contacts, and stored by springs at walls and tangential ones; less work of moving "
+       "walls"},
+      {"kinetic_energy", row.energy.kinetic, "J", {}, {}, "of the grains, last row"},
+      {"rotation_energy", row.energy.rotation, "J", {}, {}, "of the grains, last row"},
+      {"potential_energy", row.energy.potential, "J", {}, {}, "of the grains' weight, last row"},
+      {"elastic_energy",
+       row.energy.elastic,
+       "J",
+       {},
+       {},
+       "normal springs between grains, last row"},
+      {"grains_appeared", double(statistics.appeared), "-", {}, {}, "inserted while the gas ran"},
+      {"grains_left", double(statistics.left), "-", {}, {}, "left the box while the gas ran"},
+      {"audit_violations", rows_beyond, "-", 0.0, 0.0, "rows beyond a bound of [coupling.audit]"},
+      {"removed_mean_residual", extremes.removed_mean, "-", {}, {}, "of the pressure equation"},
       {"divergence_residual", extremes.divergence, "-", {}, {}, "largest of a cell, over its void"},
       {"overlap_max", extremes.overlap.relative, "-", {}, {}, "over the grain diameter"},
       {"overlap_max_length", extremes.overlap.length, "m", {}, {}, "the same as a length"},

@@ -22,8 +22,8 @@ BedMeans bed_means(const RunStatistics& statistics, const BedMonitor& monitor, d
 // The columns of timeseries.csv; vectors by their component along `axis`.
 std::vector<NamedValue> series_values(const SeriesRow& row,
                                       const std::vector<std::string>& monitors, int axis);
-std::vector<Quantity> summary_quantities(const RunStatistics& statistics, const WallTimes& times,
-                                         const BedMeans& means,
+std::vector<Quantity> summary_quantities(const SeriesRow& row, const RunStatistics& statistics,
+                                         const WallTimes& times, const BedMeans& means,
                                          const std::vector<std::string>& monitors);
 
 // What was set up, before the first step.

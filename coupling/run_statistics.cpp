@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "coupling/audit_bounds.hpp"
+
 namespace gasgrain::coupling {
 
 void RunExtremes::note(const ExchangeReport& report) {
@@ -54,6 +56,7 @@ void visit(cfd::StateArchive& archive, RunExtremes& e) {
   archive.number("divergence", e.divergence);
   archive.number("removed_mean", e.removed_mean);
   archive.number("momentum_residual", e.momentum_residual);
+  archive.number("heating", e.heating);
   archive.number("largest_overlap", e.overlap.length);
   archive.number("largest_relative_overlap", e.overlap.relative);
   archive.number("smallest_void_fraction", e.smallest_void_fraction);
@@ -71,7 +74,12 @@ void RunStatistics::visit_state(cfd::StateArchive& archive) {
   monitors.resize(static_cast<std::size_t>(kinds));
   for (std::size_t n = 0; n < monitors.size(); ++n)
     visit(archive, "monitor_" + std::to_string(n), monitors[n]);
-  archive.number("last_momentum_residual", last_momentum_residual);
+  archive.number("total_gas_work", gas_work);
+  archive.number("total_dissipated", dissipated);
+  archive.number_of("grains_appeared", appeared);
+  archive.number_of("grains_left", left);
+  for (const char* name : bound_names)
+    archive.number_of(std::string("violations_") + name, violations[name]);
   archive.number("grain_steps", grain_steps);
 }
 
@@ -80,6 +88,13 @@ void RunStatistics::note(const BedState& bed, const ExchangeReport& report) {
   height.push_back({bed.time, report.interval, bed.height});
   pressure_drop.push_back({bed.time, report.interval, bed.pressure_drop});
   weight.push_back({bed.time, report.interval, bed.weight});
+}
+
+void RunStatistics::note_energy(const EnergyBalance& energy, const TrafficSums& traffic) {
+  gas_work += energy.gas_work;
+  dissipated += energy.dissipated;
+  appeared += traffic.appeared;
+  left += traffic.left;
 }
 
 void RunStatistics::note_monitors(double time, double interval, const std::vector<double>& values) {

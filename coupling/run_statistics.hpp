@@ -1,10 +1,13 @@
 // What a coupled run remembers from exchange to exchange for its time means and closing table.
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "cfd/state_archive.hpp"
 #include "coupling/batch_means.hpp"
+#include "coupling/energy_audit.hpp"
 #include "coupling/momentum_audit.hpp"
 #include "liggghts_plugins/contact_statistics.hpp"
 
@@ -32,6 +35,7 @@ struct RunExtremes {
   double third_law_residual = 0.0, pressure_residual = 0.0, solid_volume_residual = 0.0;
   double divergence = 0.0, removed_mean = 0.0;
   double momentum_residual = 0.0;  // vertical, over the weight; audited intervals
+  double heating = 0.0;            // likewise, see SeriesRow
   plugins::LargestOverlap overlap;
   double smallest_void_fraction = 1.0;
 
@@ -42,13 +46,18 @@ struct RunStatistics {
   RunExtremes extremes;
   std::vector<TimedSample> height, pressure_drop, weight;  // samples at exchanges
   std::vector<std::vector<TimedSample>> monitors;          // of Monitors::names(), samples at rows
-  double last_momentum_residual = 0.0;
-  double grain_steps = 0.0;  // grains times DEM steps
+  double gas_work = 0.0, dissipated = 0.0;                 // J, sums over the audited intervals
+  long appeared = 0, left = 0;                             // grains
+  std::map<std::string, long> violations;  // rows beyond a bound of the audit, by its name
+  double grain_steps = 0.0;                // grains times DEM steps
   WallTimes wall_times;
 
   void note(const BedState& bed, const ExchangeReport& report);
   // Values that hold for the `interval` [s] up to `time`.
   void note_monitors(double time, double interval, const std::vector<double>& values);
+  void note_energy(const EnergyBalance& energy, const TrafficSums& traffic);
+  // True for the first of its kind.
+  bool note_violation(const std::string& name) { return ++violations[name] == 1; }
   // All but the wall times.
   void visit_state(cfd::StateArchive& archive);
 };

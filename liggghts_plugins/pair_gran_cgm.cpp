@@ -186,6 +186,25 @@ void PairGranCgm::loop_of_tangential_model(PairGran& pair, Report report) {
                         [&]<TangentialModel model>() { loop<model>(pair, report); });
 }
 
+double PairGranCgm::spring_energy() const {
+  const Grains g(*atom);
+  const LAMMPS_NS::NeighList& list = *parent_->list;
+  double energy = 0.0;
+  for (int ii = 0; ii < list.inum; ++ii) {
+    const int i = list.ilist[ii];
+    for (int jj = 0; jj < list.numneigh[i]; ++jj) {
+      const int j = list.firstneigh[i][jj] & NEIGHMASK;
+      const double overlap = g.radius[i] + g.radius[j] - (column(g.x, i) - column(g.x, j)).norm();
+      if (overlap <= 0) continue;
+      const ContactCoefficients c =
+          coefficients(contacts_(g.type[i], g.type[j]), pair_masses(*parent_, g, i, j));
+      const double share = force->newton_pair || j < g.local_count ? 1.0 : 0.5;
+      energy += share * 0.5 * c.spring_constant * overlap * overlap;
+    }
+  }
+  return energy;
+}
+
 template <TangentialModel tangential, class Report>
 void PairGranCgm::loop(PairGran& pair, Report report) {
   constexpr bool with_history = tangential == TangentialModel::history;

@@ -105,6 +105,61 @@ class CoupledBed(unittest.TestCase):
         with open(bench.directory / "out" / "probe_bottom.csv") as file:
             self.assertEqual(len(file.readlines()), len(rows) + 1)
 
+    def test_balance_knows_grains_that_leave_and_that_are_inserted(self):
+        jet = ("region jet block 0.001 0.0065 0.001 0.004 0.0073 0.009 units box\n"
+               "group jet region jet\nvelocity jet set 0 0 3.0\n")
+        insertion = ("region space block 0.001 0.0065 0.001 0.004 0.012 0.018 units box\n"
+                     "fix original all particletemplate/sphere 15485863 atom_type 1 density constant "
+                     "2500 radius constant 50e-6\n"
+                     "fix mixture all particledistribution/discrete 32452843 1 original 1.0\n"
+                     "fix insert all insert/pack seed 49979687 distributiontemplate mixture "
+                     "insert_every 400 overlapcheck yes all_in yes vel constant 0.1 0.2 -0.7 "
+                     "particles_in_region 30 region space\n")
+        for engine in ("auto", "off"):
+            with self.subTest(engine=engine):
+                bench = bed.bench(bed.case(coupling="series_interval = 2e-4"))
+                bench.run(bed.script(f"gasgrain_engine {engine}\n" + jet + "run 700\n" + insertion
+                                     + "run 1000\n"), ranks=2)
+                found = bed.quantities(bench.directory)
+                self.assertGreater(found["grains_left"], 10)
+                self.assertGreater(found["grains_appeared"], 20)
+                self.assertLess(found["momentum_balance_residual"], 1e-9)
+                rows = bed.series(bench.directory)
+                self.assertEqual({row["unexplained_grains"] for row in rows}, {0.0})
+                self.assertGreater(max(abs(row["grain_passage"]) for row in rows),
+                                   0.1 * bed.weight())
+
+    def test_stops_at_a_residual_beyond_its_bound_when_asked(self):
+        script = bed.script("fix push all addforce 0 0 1e-8\nrun 2000")  # nobody measures it
+        script = script.replace("coarsegraining 5", "coarsegraining 5 model_check warn")
+        for reaction in ("warn", "stop"):
+            with self.subTest(reaction=reaction):
+                bench = bed.bench(bed.case(coupling=f'audit = {{on_violation = "{reaction}"}}'))
+                done = bench.run(script, check=False)
+                self.assertIn("momentum residual", done.text)
+                self.assertIn("exceeds coupling.audit.momentum = 1e-06", done.text)
+                if reaction == "stop":
+                    self.assertNotEqual(done.code, 0)
+                    self.assertEqual(len(bed.series(bench.directory)), 1)
+                else:
+                    self.assertEqual(done.code, 0)
+                    self.assertEqual(done.text.count("WARNING: audit"), 1)
+                    self.assertGreater(bed.quantities(bench.directory)["audit_violations"], 5)
+
+    def test_energy_that_the_gas_and_weight_give_is_dissipated(self):
+        bench = bed.bench(bed.case(coupling="series_interval = 2e-4"))
+        bench.run(bed.script("run 4000"), ranks=2)
+        found, rows = bed.quantities(bench.directory), bed.series(bench.directory)
+        stored = [row["kinetic_energy"] + row["rotation_energy"] + row["potential_energy"]
+                  + row["elastic_energy"] for row in rows]
+        interval = [b["time"] - a["time"] for a, b in zip(rows, rows[1:])]
+        for before, after, row, time in zip(stored, stored[1:], rows[1:], interval):
+            self.assertAlmostEqual(after - before, (row["gas_power"] - row["dissipation"]) * time,
+                                   delta=1e-6 * max(stored))
+        self.assertGreater(found["dissipated_energy"], 0.0)
+        self.assertGreater(found["elastic_energy"], 0.0)
+        self.assertLess(found["heating_max"], 0.1)
+
     def test_several_runs_continue_one_another(self):
         whole = bed.bench(bed.case(coupling="series_interval = 1e-4"))
         whole.run(bed.script("run 200"))

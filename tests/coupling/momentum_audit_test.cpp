@@ -15,7 +15,7 @@ TEST(MomentumAudit, closes_for_free_fall) {
   report.interval = 3;
   audit.add_exchange(report);
   const MomentumBalance balance =
-      audit.close({.count = 1, .mass = 2, .momentum = Vec3(0, 0, -60)}, Vec3::Zero(), gravity);
+      audit.close({.count = 1, .mass = 2, .momentum = Vec3(0, 0, -60)}, {}, Vec3::Zero(), gravity);
   EXPECT_NEAR(balance.residual.norm(), 0.0, 1e-12);
   EXPECT_DOUBLE_EQ(balance.grain_weight[2], -60);
 }
@@ -26,7 +26,7 @@ TEST(MomentumAudit, shows_a_missing_wall_force) {
   ExchangeReport report;
   report.interval = 3;
   audit.add_exchange(report);
-  const MomentumBalance balance = audit.close({.count = 1, .mass = 2}, Vec3(0, 0, 55), gravity);
+  const MomentumBalance balance = audit.close({.count = 1, .mass = 2}, {}, Vec3(0, 0, 55), gravity);
   EXPECT_NEAR(balance.residual[2], 5.0, 1e-12);  // 60 N s of weight, 55 N s of wall
 }
 
@@ -41,8 +41,8 @@ TEST(MomentumAudit, counts_impulse_in_transit) {
   report.gas_momentum.stored = Vec3(-5, 0, 0);
   audit.add_exchange(report);
   audit.add_received(Vec3(4, 0, 0));
-  const MomentumBalance balance =
-      audit.close({.count = 1, .mass = 2, .momentum = Vec3(4, 0, 0)}, Vec3::Zero(), Vec3::Zero());
+  const MomentumBalance balance = audit.close({.count = 1, .mass = 2, .momentum = Vec3(4, 0, 0)},
+                                              {}, Vec3::Zero(), Vec3::Zero());
   EXPECT_NEAR(balance.residual.norm(), 0.0, 1e-12);
   EXPECT_DOUBLE_EQ(balance.in_transit[0], -1);
 }
@@ -54,8 +54,8 @@ TEST(MomentumAudit, starts_anew_after_closing) {
   report.interval = 3;
   audit.add_exchange(report);
   const GrainTotals fallen{.count = 1, .mass = 2, .momentum = Vec3(0, 0, -60)};
-  audit.close(fallen, Vec3::Zero(), gravity);
-  EXPECT_EQ(audit.close(fallen, Vec3::Zero(), gravity).residual.norm(), 0.0);
+  audit.close(fallen, {}, Vec3::Zero(), gravity);
+  EXPECT_EQ(audit.close(fallen, {}, Vec3::Zero(), gravity).residual.norm(), 0.0);
 }
 
 // One-way: what the gas does is no part of the balance.
@@ -67,8 +67,8 @@ TEST(MomentumAudit, balances_the_grains_alone_in_one_way_coupling) {
   report.gas_momentum.stored = Vec3(100, 0, 0);
   audit.add_exchange(report);
   audit.add_received(Vec3(4, 0, 0));
-  const MomentumBalance balance =
-      audit.close({.count = 1, .mass = 2, .momentum = Vec3(4, 0, 0)}, Vec3::Zero(), Vec3::Zero());
+  const MomentumBalance balance = audit.close({.count = 1, .mass = 2, .momentum = Vec3(4, 0, 0)},
+                                              {}, Vec3::Zero(), Vec3::Zero());
   EXPECT_NEAR(balance.residual.norm(), 0.0, 1e-12);
 }
 
