@@ -12,6 +12,8 @@ namespace gasgrain::plugins {
 class GrainContactTable {
  public:
   GrainContactTable() = default;
+  // Of the single type 1, for hosts other than LIGGGHTS.
+  explicit GrainContactTable(const GrainContact& contact) : stride_(2), contacts_(4, contact) {}
   // Reads, for the types of the simulation box (all `peratomtypepair`):
   //   cgmSpringConstant            k, N/m             required
   //   coefficientRestitution       e, (0, 1]          required

@@ -67,21 +67,22 @@ WallTouch SdfWall::touch(const GrainAtWall& grain, Vec3& displacement, const Tan
                          WallLoad& load) {
   WallTouch result;
   const DistanceSample nearest = sample(grain.position);
-  if (nearest.distance >= grain.radius || !has_normal(nearest)) {
-    result.gap = nearest.distance - grain.radius;
+  const bool several = body_.shape->has_several_contacts();
+  result.gap = nearest.distance - grain.radius - (several ? body_.shape->kink_excess() : 0.0);
+  if (result.gap >= 0 || !(several || has_normal(nearest))) {
     displacement.setZero();
     forget(grain.tag);
     return result;
   }
   result.touches = true;
-  if (!body_.shape->has_several_contacts()) {
+  if (!several) {
     add_contact<tangential>(grain, nearest, displacement, step, result, load);
     return result;
   }
   const NearSurfaces walls = contacts_of(grain, nearest);
   if (walls.count > 1 || edge_springs(grain.tag)) {
     touch_edge<tangential>(grain, walls, displacement, step, result, load);
-  } else if (walls.count == 1) {
+  } else if (walls.count == 1 && has_normal(walls.surface[0])) {
     add_contact<tangential>(grain, walls.surface[0], displacement, step, result, load);
   } else {
     displacement.setZero();

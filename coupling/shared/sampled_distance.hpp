@@ -29,6 +29,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "coupling/shared/signed_distance.hpp"
@@ -80,6 +81,7 @@ class SampledDistance final : public SignedDistance {
   double resolved_range() const override { return data_.band; }
   double steepest_gradient() const override;
   bool has_several_contacts() const override { return true; }
+  double kink_excess() const override;
   void add_near_surfaces(const Vec3& x, double reach, NearSurfaces& found) const override;
 
   const BrickSamples& data() const { return data_; }
@@ -100,8 +102,9 @@ class SampledDistance final : public SignedDistance {
   enum class Surroundings { gas, solid, both };
 
   bool kink_between_cells(const Vec3& x, const DistanceSample& nearest) const;
-  bool add_plane_through(const DistanceSample& sample, const Vec3& at, const Vec3& x, double reach,
-                         NearSurfaces& found) const;
+  NearSurfaces walls_around(const Vec3& x) const;
+  std::optional<DistanceSample> wall_below(const Vec3& x, const Vec3& at,
+                                           const DistanceSample& there) const;
   DistanceSample sample_inside(const Vec3& position) const;
   DistanceSample sample_outside(const Vec3& x) const;
   template <int count>

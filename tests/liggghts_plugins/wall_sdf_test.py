@@ -262,10 +262,15 @@ class ConcaveEdge(unittest.TestCase):
 
     def test_a_grain_rests_in_a_corner_of_samples(self):
         """Samples a quarter of the radius apart: the corner is where the planes meet, to a
-        hundredth of the overlap of the softest load, and the grain lies still."""
+        fiftieth of the overlap of the softest load, and the grain lies still; with friction too."""
+        for friction in (0.0, 0.3):
+            with self.subTest(friction=friction):
+                self.check_corner_of_samples(friction)
+
+    def check_corner_of_samples(self, friction):
         sampled = self.settled_in("fix w all wall/sdf case case.toml body sampled_bin type 2",
-                                  friction=0.0)
-        planes = self.settled_in(self.PLANES, friction=0.0)  # with friction it rests in many places
+                                  friction=friction)
+        planes = self.settled_in(self.PLANES, friction=friction)
         overlap = 9.0 * MASS / (L**3 * 0.05)
         for d in range(3):
             self.assertAlmostEqual(sampled[-1][1][d], planes[-1][1][d], delta=0.02 * overlap)

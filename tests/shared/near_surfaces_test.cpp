@@ -86,6 +86,28 @@ TEST(NearSurfaces, ABallThatTouchesOneWallNearAnEdgeFeelsThatOneAlone) {
   }
 }
 
+// A floor and a post on it that is hardly wider than the ball: the foot on the post must be found
+// from samples some way off.
+TEST(NearSurfaces, ABallBesideARoundPostTouchesPostAndFloor) {
+  constexpr double post_radius = 0.3, overlap = 1e-3;
+  const Shape scene = make_union(
+      {half_space(Vec3(0, 0, 1)),
+       make_shape(Cylinder{Vec3::Zero(), Vec3(0, 0, 1), post_radius, /* half_length */ 10.0})});
+  const Shape field = sampled(scene, Interpolation::quadratic);
+  for (double turn = 0.0; turn < 6.0; turn += 0.37) {
+    const Vec3 out(std::cos(turn), std::sin(turn), 0);
+    const NearSurfaces found = contacts(
+        field, (post_radius + radius - overlap) * out + (radius - overlap) * Vec3(0, 0, 1));
+    ASSERT_EQ(found.count, 2) << turn;
+    for (int n = 0; n < 2; ++n) {
+      EXPECT_NEAR(found.surface[n].distance, radius - overlap, 0.05 * overlap) << turn;
+      const double to_wall =
+          std::max(found.surface[n].gradient.dot(out), found.surface[n].gradient[2]);
+      EXPECT_NEAR(to_wall, 1.0, 1e-4) << turn;
+    }
+  }
+}
+
 TEST(NearSurfaces, NearlyParallelWallsAreOneContact) {
   const Wedge wedge(170.0, 1e-3);
   EXPECT_EQ(contacts(wedge.shape, wedge.place).count, 1);

@@ -1,0 +1,122 @@
+// Energy of an elastic grain without friction that flies about in a closed cavity for 1e6 steps.
+//
+// The wall force is the gradient of a potential, so only the time integration may change the
+// energy. Velocity Verlet does so when a contact begins and ends between two steps, by up to
+// (omega dt)^2/4 of the energy of the approach, at random. With a step such that a contact lasts a
+// whole number of steps, omega dt = 2 sin(pi/(2 N)), both errors of a head-on contact cancel
+// exactly (positions at contact are samples of one sine, and half a period later its mirror image).
+// So the step is Tc/20.02 here, and what is left is the field's and the curvature's. Lengths in
+// radii of the grain.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "coupling/shared/boolean_shapes.hpp"
+#include "coupling/shared/primitives.hpp"
+#include "tests/verification/grain_flight.hpp"
+#include "tests/verification/report.hpp"
+
+namespace gasgrain::verification {
+namespace {
+
+constexpr double half_size = 7.0;         // of the sampled box
+constexpr double spacing = 0.25;          // a quarter of the radius
+constexpr double largest_overlap = 0.01;  // of a head-on impact
+
+// Of which `count` make a contact, in units of sqrt(m/k).
+double step_of_whole_contacts(int count) {
+  return 2.0 * std::sin(0.5 * std::numbers::pi / count);
+}
+
+// A round cavity of six radii.
+Shape ball() {
+  return make_complement(make_shape(Sphere{Vec3(0.03, -0.07, 0.05), 6.0}));
+}
+
+// The same with a ring in its middle, which nowhere comes near the outer wall.
+Shape ball_with_ring() {
+  return make_union({ball(), make_shape(Torus{.center = Vec3(0.1, 0.2, -0.1),
+                                              .axis = Vec3(1, 2, 3).normalized(),
+                                              .radius = 1.8,
+                                              .tube_radius = 0.8})});
+}
+
+// The same with a ring that grows out of the wall: concave edges all around.
+Shape ball_with_bump() {
+  return make_union({ball(), make_shape(Torus{.center = Vec3(0.1, 0.2, -0.1),
+                                              .axis = Vec3(1, 2, 3).normalized(),
+                                              .radius = 5.2,
+                                              .tube_radius = 1.6})});
+}
+
+struct Drift {
+  double largest;
+  int contacts;
+};
+
+Drift energy_drift(const Shape& cavity, int steps_per_contact) {
+  constexpr int steps = 1'000'000;
+  const double step = step_of_whole_contacts(steps_per_contact);
+  GrainFlight grain(cavity, {});
+  grain.position = Vec3(0.1, 0.3, 3.6);
+  grain.velocity = largest_overlap * Vec3(0.48, 0.6, 0.64);
+  const double start = grain.kinetic_energy();
+  Drift drift{};
+  bool before = false;
+  for (int n = 0; n < steps; ++n) {
+    grain.step(step);
+    const bool now = grain.touches();
+    if (before && !now) {
+      ++drift.contacts;
+      drift.largest = std::max(drift.largest, std::abs(grain.kinetic_energy() / start - 1.0));
+    }
+    before = now;
+  }
+  return drift;
+}
+
+struct Field {
+  std::string name;
+  Shape shape;
+};
+
+std::vector<Field> fields_of(const Shape& cavity) {
+  return {{"exact distance", cavity},
+          {"quadratic", sampled(cavity, half_size, spacing, Interpolation::quadratic)},
+          {"linear", sampled(cavity, half_size, spacing, Interpolation::linear)}};
+}
+
+void measure(Report& report, const std::string& quantity, const std::vector<Field>& fields,
+             int steps_per_contact) {
+  for (const Field& field : fields) {
+    const Drift drift = energy_drift(field.shape, steps_per_contact);
+    EXPECT_GT(drift.contacts, 10);
+    report.check(quantity + "; " + field.name, std::to_string(drift.contacts) + " contacts",
+                 drift.largest);
+  }
+}
+
+constexpr const char* largest_drift = "largest energy drift";
+
+TEST(WallEnergy, is_kept_in_a_round_cavity) {
+  Report report("wall_energy_sphere", "elastic grain in a round cavity; 1e6 steps");
+  const std::vector<Field> fields = fields_of(ball());
+  measure(report, largest_drift, fields, 20);
+  measure(report, "the same at a tenth of the step", fields, 200);
+}
+
+TEST(WallEnergy, is_kept_in_a_cavity_with_a_ring) {
+  Report report("wall_energy_ring", "elastic grain in a round cavity with a ring; 1e6 steps");
+  measure(report, largest_drift, fields_of(ball_with_ring()), 20);
+}
+
+TEST(WallEnergy, is_kept_in_a_cavity_with_a_bump) {
+  Report report("wall_energy_bump", "elastic grain in a round cavity with a torus bump; 1e6 steps");
+  measure(report, largest_drift, fields_of(ball_with_bump()), 20);
+}
+
+}  // namespace
+}  // namespace gasgrain::verification
