@@ -1,6 +1,7 @@
 #include "liggghts_plugins/fix_wall_sdf.h"
 
 #include <atom.h>
+#include <comm.h>
 #include <domain.h>
 #include <modify.h>
 #include <mpi.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <sstream>
 #include <utility>
@@ -38,8 +40,9 @@ FixWallSdf::FixWallSdf(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char** a
       where_(std::string("fix ") + id + " wall/sdf") {
   if (!atom->sphere_flag || !atom->rmass)
     throw UserError(where_ + ": needs spheres with their own mass (atom_style sphere)");
-  const auto [body, used] = read_body(argument_count, arguments);
+  auto [body, used] = read_body(argument_count, arguments);
   const int wall_type = read_options(argument_count - used, arguments + used);
+  take_motion(body, used == 7 ? arguments[4] : nullptr);
   wall_ = SdfWall(body, wall_type);
 
   vector_flag = 1;
@@ -49,7 +52,8 @@ FixWallSdf::FixWallSdf(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char** a
   restart_peratom = 1;
   create_attribute = 1;
   // a wall that sweeps asks for new lists before it comes to grains that are no candidates
-  force_reneighbor = body.motion.sweeps() ? 1 : 0;
+  force_reneighbor = body.motion.sweeps() || motion_.by_variable.exists() ? 1 : 0;
+  restart_global = motion_.by_variable.exists() ? 1 : 0;
   next_reneighbor = -1;
   grow_arrays(atom->nmax);
   atom->add_callback(0);
@@ -86,8 +90,12 @@ std::pair<Body, int> FixWallSdf::read_body(int argument_count, char** arguments)
 // Returns the wall's atom type.
 int FixWallSdf::read_options(int argument_count, char** arguments) {
   int wall_type = 0;
-  for (int i = 0; i < argument_count; i += 2) {
+  int words = 2;
+  for (int i = 0; i < argument_count; i += words) {
     const std::string keyword = arguments[i];
+    words = read_motion_keyword(motion_, {argument_count - i, arguments + i}, where_);
+    if (words > 0) continue;
+    words = 2;
     if (i + 1 >= argument_count) throw UserError(where_ + ": no value after '" + keyword + "'");
     char* value = arguments[i + 1];
     if (keyword == "type") {
@@ -103,13 +111,29 @@ int FixWallSdf::read_options(int argument_count, char** arguments) {
       read_contact_settings(settings_, {2, arguments + i}, where_.c_str());
     } else {
       throw UserError(where_ + ": unknown keyword '" + keyword +
-                      "' (known: type, tangential, stiffness_exponent)");
+                      "' (known: type, tangential, stiffness_exponent, translate, oscillate, "
+                      "rotate, start, stop, displacement, velocity)");
     }
   }
   if (wall_type == 0)
     throw UserError(where_ +
                     ": missing `type T`, the atom type whose contact properties the wall has");
   return wall_type;
+}
+
+// Motion stated by keywords, of a body that has none of its own and is no wall for the gas.
+void FixWallSdf::take_motion(Body& body, const char* case_file) const {
+  check_motion(motion_, where_);
+  if (!motion_.exists()) return;
+  if (!body.motion.is_at_rest())
+    throw UserError(where_ + ": body '" + body.name + "' has a `motion` in " + case_file +
+                    "; state it there or by keywords, not both");
+  if (case_file && body.acts_on_gas)
+    throw UserError(where_ + ": body '" + body.name + "' of " + case_file +
+                    " acts on the gas, which would not see a motion stated by keywords; state it "
+                    "as `motion` in the case file, or give the body acts_on = [\"grains\"]");
+  body.motion = motion_.rigid;
+  if (motion_.rigid.rate != 0.0) body.torque_point = motion_.rigid.centre;
 }
 
 int FixWallSdf::setmask() {
@@ -121,6 +145,7 @@ void FixWallSdf::init() {
     throw UserError(where_ + ": rigid bodies and multispheres are not supported");
   const ContactSettings* pair = pair_settings(*lmp);
   if (!own_exponent_ && pair) settings_.stiffness_exponent = pair->stiffness_exponent;
+  motion_.by_variable.check(*lmp, where_);
   wall_.set_contacts(GrainContactTable(*lmp, settings_, where_.c_str()));
   refuse_unresolved_grains();
 }
@@ -144,6 +169,23 @@ void FixWallSdf::setup(int vflag) {
 
 void FixWallSdf::place_wall() {
   wall_.set_time(update->get_cur_time(), update->dt);
+  if (motion_.by_variable.exists()) carry_wall();
+}
+
+// Asks for new lists when half of the way that they allow for is used up.
+void FixWallSdf::carry_wall() {
+  VariableMotion& motion = motion_.by_variable;
+  if (motion.advance(*lmp)) swept_ += motion.last_way();
+  wall_.carry({motion.displacement(), motion.velocity(), motion.last_way() / update->dt});
+  if (way_ == 0.0) return;  // there are no grains
+  if (swept_ > way_) {
+    std::ostringstream message;
+    message << where_ << ": the variables move the wall by " << motion.last_way() << " m in step "
+            << update->ntimestep << ", more than half of the largest grain radius (" << way_
+            << " m): it could pass grains; choose a smaller step or a slower motion";
+    throw UserError(message.str());
+  }
+  if (swept_ > 0.5 * way_) next_reneighbor = update->ntimestep + 1;
 }
 
 double FixWallSdf::fastest_sweep() const {
@@ -162,17 +204,20 @@ int FixWallSdf::tag(int i) const {
 // more than they move, so all others cost nothing. A wall that sweeps may come nearer by a grain
 // radius more before it asks for new lists.
 void FixWallSdf::pre_neighbor() {
+  double smallest_radius = 0.0;
+  way_ = 0.0;
+  if (wall_.sweeps() || motion_.by_variable.exists()) modify->max_min_rad(way_, smallest_radius);
+  swept_ = 0.0;
   place_wall();
+  swept_ = 0.0;
   const double speed = fastest_sweep();
-  double way = 0.0, smallest_radius = 0.0;
-  if (speed > 0) {
-    modify->max_min_rad(way, smallest_radius);
-    next_reneighbor = update->ntimestep + std::max(1, static_cast<int>(way / (speed * update->dt)));
-  }
+  if (speed > 0 && !motion_.by_variable.exists())
+    next_reneighbor =
+        update->ntimestep + std::max(1, static_cast<int>(way_ / (speed * update->dt)));
   candidates_.clear();
   std::vector<Vec3> springs;
   for (int i = 0; i < atom->nlocal; ++i) {
-    const double reach = atom->radius[i] + neighbor->skin + way;
+    const double reach = atom->radius[i] + neighbor->skin + way_;
     if ((atom->mask[i] & groupbit) && wall_.distance(ConstColumn(atom->x[i])) < reach) {
       candidates_.push_back(i);
       springs.push_back(spring_of(i));
@@ -305,6 +350,20 @@ void FixWallSdf::unpack_restart(int i, int nth) {
   const double* values = atom->extra[i];
   for (int k = 0; k < nth; ++k) values += static_cast<int>(values[0]);
   unpack_springs(i, values + 1);
+}
+
+void FixWallSdf::write_restart(FILE* file) {
+  if (comm->me != 0) return;
+  const std::vector<double> state = motion_.by_variable.state();
+  const int size = static_cast<int>(state.size() * sizeof(double));
+  std::fwrite(&size, sizeof size, 1, file);
+  std::fwrite(state.data(), sizeof(double), state.size(), file);
+}
+
+void FixWallSdf::restart(char* buffer) {
+  std::vector<double> state = motion_.by_variable.state();
+  std::memcpy(state.data(), buffer, state.size() * sizeof(double));
+  motion_.by_variable.set_state(state.data());
 }
 
 double FixWallSdf::memory_usage() {

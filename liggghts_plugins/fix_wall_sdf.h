@@ -1,6 +1,6 @@
 // fix ID group wall/sdf body FILE.h5 type T
 // fix ID group wall/sdf case CASE.toml body NAME type T
-//     [tangential history|no_history|off] [stiffness_exponent n]
+//     [tangential history|no_history|off] [stiffness_exponent n] [motion keywords: wall_motion.hpp]
 //
 // A wall from a signed distance field phi > 0 in the flow domain (sdf_wall.hpp): at rest or moving
 // as the body's `motion` says. k, eta, friction: pair (grain type, T) of the contact law
@@ -29,6 +29,7 @@ FixStyle(wall/sdf,gasgrain::plugins::FixWallSdf)
 #include "liggghts_plugins/contact_settings.hpp"
 #include "liggghts_plugins/grain_wall.hpp"
 #include "liggghts_plugins/sdf_wall.hpp"
+#include "liggghts_plugins/wall_motion.hpp"
 
 namespace gasgrain::plugins {
 
@@ -58,6 +59,9 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   int size_restart(int i) override;
   int maxsize_restart() override;
   double memory_usage() override;
+  // Where a wall that variables move has come to.
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
 
   std::string wall_name() const override { return id; }
   Vec3 take_impulse() override { return impulse_.take(); }
@@ -65,6 +69,10 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   // For the fused engine, which computes the contacts itself between reneighbourings.
   SdfWall& wall() { return wall_; }
   TangentialModel tangential() const { return settings_.tangential; }
+  // Moved by variables that look at more than the time, such as sums over grains.
+  bool looks_at_grains() const {
+    return motion_.by_variable.exists() && !motion_.by_variable.follows_time(*lmp);
+  }
   int tag(int i) const;
   // Puts the wall where it is in the present step.
   void place_wall();
@@ -81,6 +89,8 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   std::pair<Body, int> read_body(int argument_count, char** arguments) const;
   int read_options(int argument_count, char** arguments);
   void refuse_unresolved_grains() const;
+  void take_motion(Body& body, const char* case_file) const;
+  void carry_wall();
   template <TangentialModel tangential>
   void apply_contacts(const TangentialStep& step);
   Vec3 spring_of(int i) const { return place_[i] < 0 ? Vec3(Vec3::Zero()) : springs_[place_[i]]; }
@@ -90,6 +100,9 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   std::string where_;
   SdfWall wall_;
   ContactSettings settings_;
+  WallMotion motion_;   // by keywords
+  double way_ = 0.0;    // m, that the wall may come nearer before new lists
+  double swept_ = 0.0;  // m, by variables since the lists were built
   bool own_exponent_ = false;
 
   std::vector<int> candidates_;  // local atoms that may touch until the next reneighbouring

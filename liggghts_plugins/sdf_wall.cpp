@@ -13,6 +13,10 @@ namespace {
 // surfaces).
 constexpr double smallest_gradient = 1e-3;
 
+// By how much an interpolated field may exceed the distance where it has a kink, in radii of the
+// grain: 0.05 spacings of a quarter of the radius. So far out several contacts are looked for.
+constexpr double excess_at_kinks = 0.0125;
+
 bool has_normal(const DistanceSample& wall) {
   return wall.gradient.squaredNorm() > smallest_gradient * smallest_gradient;
 }
@@ -27,22 +31,32 @@ void SdfWall::set_time(double time, double duration) {
   turn_ = pose_.rotation * body_.motion.pose(time - duration).rotation.transpose();
 }
 
+void SdfWall::carry(const Carriage& carriage) {
+  carried_ = true;
+  pose_.translation = carriage.displacement;
+  torque_point_ = body_.torque_point + carriage.displacement;
+  carried_velocity_ = body_.surface_velocity + carriage.velocity;
+  carried_sweep_ = carriage.sweep;
+}
+
 DistanceSample SdfWall::sample(const Vec3& x) const {
-  if (!body_.motion.sweeps()) return body_.shape->sample(x);
+  if (!sweeps()) return body_.shape->sample(x);
   const DistanceSample at_rest = body_.shape->sample(pose_.to_body(x));
   return {at_rest.distance, pose_.rotation * at_rest.gradient};
 }
 
 double SdfWall::distance(const Vec3& x) const {
-  return body_.shape->distance(body_.motion.sweeps() ? pose_.to_body(x) : x);
+  return body_.shape->distance(sweeps() ? pose_.to_body(x) : x);
 }
 
 Vec3 SdfWall::velocity_at(const Vec3& x) const {
+  if (carried_) return carried_velocity_;
   return body_.motion.is_at_rest() ? body_.surface_velocity : surface_velocity_at(body_, x, time_);
 }
 
 double SdfWall::fastest_sweep(const Vec3& lower, const Vec3& upper) const {
   const Motion& motion = body_.motion;
+  if (carried_) return carried_sweep_;
   if (!motion.sweeps()) return 0.0;
   const Vec3 centre = pose_.to_world(motion.centre);
   const double arm = (lower - centre).cwiseAbs().cwiseMax((upper - centre).cwiseAbs()).norm();
@@ -51,8 +65,7 @@ double SdfWall::fastest_sweep(const Vec3& lower, const Vec3& upper) const {
 }
 
 NearSurfaces SdfWall::contacts_of(const GrainAtWall& grain, const DistanceSample& nearest) const {
-  if (!body_.motion.sweeps())
-    return ball_contacts(*body_.shape, nearest, grain.position, grain.radius);
+  if (!sweeps()) return ball_contacts(*body_.shape, nearest, grain.position, grain.radius);
   const Mat3& rotation = pose_.rotation;
   NearSurfaces walls =
       ball_contacts(*body_.shape, {nearest.distance, rotation.transpose() * nearest.gradient},
@@ -68,7 +81,7 @@ WallTouch SdfWall::touch(const GrainAtWall& grain, Vec3& displacement, const Tan
   WallTouch result;
   const DistanceSample nearest = sample(grain.position);
   const bool several = body_.shape->has_several_contacts();
-  result.gap = nearest.distance - grain.radius - (several ? body_.shape->kink_excess() : 0.0);
+  result.gap = nearest.distance - grain.radius - (several ? excess_at_kinks * grain.radius : 0.0);
   if (result.gap >= 0 || !(several || has_normal(nearest))) {
     displacement.setZero();
     forget(grain.tag);

@@ -54,6 +54,13 @@ struct EdgeSpring {
   Vec3 displacement;  // m
 };
 
+// Translation of a wall from outside.
+struct Carriage {
+  Vec3 displacement;  // from where the body was stated, m
+  Vec3 velocity;      // of its points, m/s
+  double sweep;       // way of the last step over its duration, m/s
+};
+
 class SdfWall {
  public:
   SdfWall() = default;
@@ -66,10 +73,13 @@ class SdfWall {
 
   // Where the wall is at `time` [s], a step of `duration` [s] after where it was.
   void set_time(double time, double duration);
+  // Puts a wall without a motion of its own there, after set_time().
+  void carry(const Carriage& carriage);
   // Distance of a place from the wall where it is now, m.
   double distance(const Vec3& x) const;
   // Fastest that any point of it moves within a box, m/s; 0 for a wall that does not sweep.
   double fastest_sweep(const Vec3& lower, const Vec3& upper) const;
+  bool sweeps() const { return carried_ || body_.motion.sweeps(); }
 
   // The contacts of a grain: force on it, and their sum added to `load`. `displacement` is the
   // spring of a single contact, m; those of several are kept here, by the grain's tag.
@@ -102,6 +112,9 @@ class SdfWall {
 
   // Of the present time.
   double time_ = 0.0;  // s
+  bool carried_ = false;
+  Vec3 carried_velocity_ = Vec3::Zero();  // m/s
+  double carried_sweep_ = 0.0;            // m/s
   Pose pose_;
   Mat3 turn_ = Mat3::Identity();      // since a step ago
   Vec3 torque_point_ = Vec3::Zero();  // m

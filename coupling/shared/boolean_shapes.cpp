@@ -105,21 +105,6 @@ void add_near_surfaces(const SignedDistance&, const Complement& solid, const Vec
     found.surface[n] = {-found.surface[n].distance, -found.surface[n].gradient};
 }
 
-double kink_excess(const std::vector<Shape>& parts) {
-  double excess = 0.0;
-  for (const Shape& part : parts) excess = std::max(excess, part->kink_excess());
-  return excess;
-}
-double kink_excess(const Union& solid) {
-  return kink_excess(solid.parts);
-}
-double kink_excess(const Intersection& solid) {
-  return kink_excess(solid.parts);
-}
-double kink_excess(const Complement& solid) {
-  return solid.shape->kink_excess();
-}
-
 double steepest_gradient(const std::vector<Shape>& parts) {
   double steepest = 0.0;
   for (const Shape& part : parts) steepest = std::max(steepest, part->steepest_gradient());
@@ -169,7 +154,6 @@ class BooleanShape final : public MeasuredShape<Solid> {
   bool has_several_contacts() const override {
     return gasgrain::has_several_contacts(this->solid_);
   }
-  double kink_excess() const override { return gasgrain::kink_excess(this->solid_); }
   void add_near_surfaces(const Vec3& x, double reach, NearSurfaces& found) const override {
     gasgrain::add_near_surfaces(*this, this->solid_, x, reach, found);
   }

@@ -26,10 +26,9 @@ constexpr double kink = 0.002;      // |grad phi| differs by more from 1: a kink
 constexpr double clean = 0.98;      // |grad phi| above: belongs to one wall
 constexpr double look_aside = 2.5;  // spacings
 constexpr int most_moves = 6;
-constexpr double close_to_foot = 0.005;   // spacings that a foot may lie aside of x
-constexpr double surface_error = 1.0;     // spacings by which a foot before it is mended may miss
-constexpr double excess_at_kinks = 0.05;  // spacings; 0.01 seen
-constexpr double largest_share = 0.75;    // of a move that may seem to be left
+constexpr double close_to_foot = 0.005;  // spacings that a foot may lie aside of x
+constexpr double surface_error = 1.0;    // spacings by which a foot before it is mended may miss
+constexpr double largest_share = 0.75;   // of a move that may seem to be left
 
 bool has_normal_of(const NearSurfaces& walls, const Vec3& gradient) {
   for (int n = 0; n < walls.count; ++n)
@@ -67,10 +66,6 @@ NearSurfaces ball_contacts(const SignedDistance& shape, const DistanceSample& ne
     if (result.surface[n].distance < result.surface[0].distance)
       std::swap(result.surface[n], result.surface[0]);
   return result;
-}
-
-double SampledDistance::kink_excess() const {
-  return excess_at_kinks * data_.spacing;
 }
 
 void SampledDistance::add_near_surfaces(const Vec3& x, double reach, NearSurfaces& found) const {

@@ -81,7 +81,6 @@ class SampledDistance final : public SignedDistance {
   double resolved_range() const override { return data_.band; }
   double steepest_gradient() const override;
   bool has_several_contacts() const override { return true; }
-  double kink_excess() const override;
   void add_near_surfaces(const Vec3& x, double reach, NearSurfaces& found) const override;
 
   const BrickSamples& data() const { return data_; }

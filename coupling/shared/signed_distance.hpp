@@ -46,9 +46,6 @@ class SignedDistance {
   virtual double steepest_gradient() const { return 1.0; }
   // Whether a ball can touch the surface at several places (concave edges).
   virtual bool has_several_contacts() const { return false; }
-  // By how much distance() may be too large where several parts of the surface are about equally
-  // near, m: a ball may touch them although distance() says that it does not. Interpolation.
-  virtual double kink_excess() const { return 0.0; }
   // Adds the locally nearest parts of the surface with |phi| < reach (m), as distance and normal of
   // each. One for smooth and convex surfaces; at a concave edge one for each side.
   virtual void add_near_surfaces(const Vec3& x, double reach, NearSurfaces& found) const {

@@ -151,6 +151,7 @@ class Planner {
   bool fuses(Fix& fix) {
     const std::string name = std::string("fix ") + fix.id + " " + fix.style;
     if (auto* wall = dynamic_cast<FixWallSdf*>(&fix)) {
+      if (wall->looks_at_grains()) oppose(name + " moved by variables of more than the time");
       plan_.walls.push_back(wall);
       return true;
     }
