@@ -1,7 +1,6 @@
 #include "liggghts_plugins/engine/contact_list.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "coupling/shared/error.hpp"
 
@@ -24,7 +23,7 @@ void make_room(std::vector<Entry>& entries, std::size_t count) {
 
 }  // namespace
 
-void ContactList::start(int local_count, int dummy, std::size_t candidates) {
+void ContactList::start(int local_count, int dummy, PairCounts room) {
   local_count_ = local_count;
   dummy_ = dummy;
   widest_pair_ = 0;
@@ -32,14 +31,23 @@ void ContactList::start(int local_count, int dummy, std::size_t candidates) {
   make_room(row_begin_, local_count + 1);
   candidate_first_.clear();
   candidate_second_.clear();
-  make_room(candidate_first_, candidates + group_size);
-  make_room(candidate_second_, candidates + group_size);
+  make_room(candidate_first_, room.candidates + group_size);
+  make_room(candidate_second_, room.candidates + group_size);
   near_begin_.assign(blocks_of(local_count) + 1, 0);
   near_first_.clear();
   near_second_.clear();
   near_candidate_.clear();
   touched_.clear();
-  set_touching({});
+  springs_.clear();
+  touching_.clear();
+  make_room(springs_, room.touching);
+  make_room(touching_, room.touching);
+}
+
+void ContactList::add_touching(int candidate, const double* spring) {
+  GASGRAIN_ASSERT(touching_.empty() || touching_.back() < candidate);
+  touching_.push_back(candidate);
+  springs_.push_back({{spring[0], spring[1], spring[2]}, 0.0});
 }
 
 void ContactList::end_row() {
@@ -93,53 +101,42 @@ void ContactList::pad_to_group() {
   }
 }
 
+// Springs of touching pairs move to the front.
 void ContactList::keep_touching() {
-  if (touching_is_current_) return;
-  touching_.clear();
-  std::size_t count = 0;
-  for (const unsigned char set : touched_) count += __builtin_popcount(set);
-  make_room(touching_, count);
-  for (std::size_t group = 0; group < touched_.size(); ++group) {
-    for (unsigned set = touched_[group]; set; set &= set - 1u) {
-      const std::size_t p = group * group_size + __builtin_ctz(set);
-      const double* spring = springs_[p].displacement;
-      touching_.push_back({near_candidate_[p], {spring[0], spring[1], spring[2]}});
-    }
-  }
-  touching_is_current_ = true;
+  if (touched_.empty()) return;  // they are there: the list has just been loaded
+  visit_touching([this](int candidate, const double* spring) {
+    std::copy_n(spring, 3, springs_[touching_.size()].displacement);
+    touching_.push_back(candidate);
+  });
+  springs_.resize(touching_.size());
 }
 
-// A touching pair that is not near any more has parted since.
+// And on to their places in the new list; a pair that is not near any more has parted since.
 void ContactList::restore_touching() {
-  make_room(springs_, near_first_.size());
-  springs_.assign(near_first_.size(), SpringRecord{});
   touched_.assign(near_first_.size() / group_size, 0);
-  std::size_t p = 0;
-  for (const TouchingPair& pair : touching_) {
-    while (p < near_candidate_.size() && near_candidate_[p] < pair.candidate) ++p;
+  std::size_t kept = 0, p = 0;
+  for (std::size_t n = 0; n < touching_.size(); ++n) {
+    while (p < near_candidate_.size() && near_candidate_[p] < touching_[n]) ++p;
     if (p == near_candidate_.size()) break;
-    if (near_candidate_[p] != pair.candidate) continue;
-    std::copy_n(pair.spring, 3, springs_[p].displacement);
+    if (near_candidate_[p] != touching_[n]) continue;
+    springs_[kept] = springs_[n];
+    touching_[kept++] = static_cast<int>(p);
     touched_[p / group_size] |= static_cast<unsigned char>(1u << (p % group_size));
   }
-}
-
-const std::vector<TouchingPair>& ContactList::touching() {
-  keep_touching();
-  return touching_;
-}
-
-void ContactList::set_touching(std::vector<TouchingPair> pairs) {
-  GASGRAIN_ASSERT(std::is_sorted(
-      pairs.begin(), pairs.end(),
-      [](const TouchingPair& a, const TouchingPair& b) { return a.candidate < b.candidate; }));
-  touching_ = std::move(pairs);
-  touching_is_current_ = true;
+  springs_.resize(kept);
+  make_room(springs_, near_first_.size());
+  springs_.resize(near_first_.size());
+  while (kept-- > 0) {  // from the end: places are never before those in front
+    const int place = touching_[kept];
+    if (place == static_cast<int>(kept)) continue;
+    springs_[place] = springs_[kept];
+    springs_[kept] = {};
+  }
+  touching_.clear();
 }
 
 void ContactList::add_contact_loads(int block, ContactBatch batch, const PairModel& model,
                                     bool uniform) {
-  touching_is_current_ = false;
   const ContactKernel& kernel = contact_kernel();
   const PairRange pairs{near_first_.data(), near_second_.data(), near_begin_[block],
                         near_begin_[block + 1]};

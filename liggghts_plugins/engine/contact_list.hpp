@@ -13,20 +13,21 @@
 
 namespace gasgrain::plugins {
 
-// A touching pair: its place in the list of candidates and its spring.
-struct TouchingPair {
-  int candidate;
-  double spring[3];  // m
+struct PairCounts {
+  std::size_t candidates = 0;
+  std::size_t touching = 0;
 };
 
 class ContactList {
  public:
   // Starts an empty list of candidates for grains 0 .. local_count - 1. Then, for every grain in
-  // order: end_row() after add_candidate() for each of its partners, which have larger indices.
+  // order: end_row() after add_candidate() for each of its partners, which have larger indices, and
+  // add_touching() for those it touches, in the order of candidates.
   // `dummy` and dummy + 1 are indices of two grains that never touch. Room is
-  // made for that many candidates.
-  void start(int local_count, int dummy, std::size_t candidates = 0);
+  // made for that many pairs.
+  void start(int local_count, int dummy, PairCounts room = {});
   void add_candidate(int second) { candidate_second_.push_back(second); }
+  void add_touching(int candidate, const double* spring);
   void end_row();
 
   int row_begin(int grain) const { return row_begin_[grain]; }
@@ -47,10 +48,16 @@ class ContactList {
     restore_touching();
   }
 
-  // Touching pairs in the order of candidates.
-  const std::vector<TouchingPair>& touching();
-  // Replaces the touching pairs, to be followed by choose_near_pairs(). Ascending candidates.
-  void set_touching(std::vector<TouchingPair> pairs);
+  // Calls visit(candidate, spring) for the touching pairs in the order of candidates; `spring`:
+  // three values in m. After choose_near_pairs().
+  template <class Visit>
+  void visit_touching(Visit visit) const {
+    for (std::size_t group = 0; group < touched_.size(); ++group)
+      for (unsigned set = touched_[group]; set; set &= set - 1u) {
+        const std::size_t p = group * group_size + __builtin_ctz(set);
+        visit(near_candidate_[p], springs_[p].displacement);
+      }
+  }
 
   int block_count() const { return static_cast<int>(near_begin_.size()) - 1; }
   // Finds the contacts of a block's grains and adds their loads.
@@ -70,12 +77,12 @@ class ContactList {
 
   std::vector<int> near_begin_;  // per block, and the end
   std::vector<int> near_first_, near_second_, near_candidate_;
-  std::vector<SpringRecord> springs_;
   std::vector<unsigned char> touched_;  // a bit per near pair
+  // Of near pairs; while these are chosen anew, of the candidates in touching_.
+  std::vector<SpringRecord> springs_;
+  std::vector<int> touching_;
   std::vector<PairCoefficients> coefficients_;
 
-  bool touching_is_current_ = false;
-  std::vector<TouchingPair> touching_;
   std::vector<int> places_;
 };
 

@@ -55,6 +55,8 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
   void write_output();
 
   // Between the atom arrays and our records.
+  const LAMMPS_NS::NeighList& pair_list() const;
+  const LAMMPS_NS::NeighList* history_list() const;
   void load_grains();
   void load_pairs();
   void load_state();

@@ -8,8 +8,7 @@
 #include <update.h>
 
 #include <algorithm>
-#include <numeric>
-#include <utility>
+#include <span>
 
 #include "coupling/shared/error.hpp"
 #include "liggghts_plugins/engine/fused_verlet.hpp"
@@ -24,25 +23,32 @@ namespace {
 using Column = Eigen::Map<Vec3>;
 using ConstColumn = Eigen::Map<const Vec3>;
 
-std::size_t sum_of(const int* values, int count) {
-  return std::accumulate(values, values + count, std::size_t{0});
-}
-
-// Of a list of contact flags.
-std::size_t touching_count(const LAMMPS_NS::NeighList& list, const LAMMPS_NS::NeighList& flags) {
-  std::size_t count = 0;
-  for (int i = 0; i < list.inum; ++i)
-    count += std::count_if(flags.firstneigh[i], flags.firstneigh[i] + list.numneigh[i],
-                           [](int flag) { return flag != 0; });
-  return count;
+// `flags`: the list of contact flags, or nullptr.
+PairCounts count_pairs(const LAMMPS_NS::NeighList& list, const LAMMPS_NS::NeighList* flags) {
+  PairCounts counts;
+  for (int i = 0; i < list.inum; ++i) {
+    counts.candidates += list.numneigh[i];
+    if (!flags) continue;
+    for (const int flag : std::span(flags->firstneigh[i], list.numneigh[i]))
+      counts.touching += flag != 0 ? 1 : 0;
+  }
+  return counts;
 }
 
 }  // namespace
 
+const LAMMPS_NS::NeighList& FusedVerlet::pair_list() const {
+  return *static_cast<const LAMMPS_NS::PairGran&>(*force->pair).list;
+}
+
+// Flags and values of the pairs of pair_list(), if tangential springs are among them.
+const LAMMPS_NS::NeighList* FusedVerlet::history_list() const {
+  return plan_.pair->history_offset() >= 0 ? pair_list().listgranhistory : nullptr;
+}
+
 void FusedVerlet::load_grains() {
   const GrainCounts counts{atom->nlocal, atom->nghost};
-  const LAMMPS_NS::NeighList& list = *static_cast<const LAMMPS_NS::PairGran&>(*force->pair).list;
-  loop_.start(counts, *plan_.pair, sum_of(list.numneigh, list.inum));
+  loop_.start(counts, *plan_.pair, count_pairs(pair_list(), history_list()));
   load_state();
   streams_.load(*lmp, plan_.streams.empty() ? nullptr : plan_.streams.front(), update->ntimestep);
   streams_.hold(loop_, update->ntimestep);
@@ -75,28 +81,22 @@ void FusedVerlet::load_state() {
 
 // LIGGGHTS's list holds every pair once, with the smaller index first, and all grains in order.
 void FusedVerlet::load_pairs() {
-  const auto& gran = static_cast<const LAMMPS_NS::PairGran&>(*force->pair);
-  const LAMMPS_NS::NeighList& list = *gran.list;
+  const LAMMPS_NS::NeighList& list = pair_list();
+  const LAMMPS_NS::NeighList* histories = history_list();
   const int offset = plan_.pair->history_offset();
-  const LAMMPS_NS::NeighList* histories = offset >= 0 ? list.listgranhistory : nullptr;
   GASGRAIN_ASSERT(list.inum == atom->nlocal);
   ContactList& pairs = loop_.pairs();
-  std::vector<TouchingPair> touching;
-  if (histories) touching.reserve(touching_count(list, *histories));
   for (int i = 0; i < list.inum; ++i) {
     GASGRAIN_ASSERT(list.ilist[i] == i);
     for (int n = 0; n < list.numneigh[i]; ++n) {
       const int j = list.firstneigh[i][n] & NEIGHMASK;
       GASGRAIN_ASSERT(j > i);
       pairs.add_candidate(j);
-      if (histories && histories->firstneigh[i][n]) {
-        const double* spring = histories->firstdouble[i] + 3 * n + offset;
-        touching.push_back({pairs.row_begin(i) + n, {spring[0], spring[1], spring[2]}});
-      }
+      if (histories && histories->firstneigh[i][n])
+        pairs.add_touching(pairs.row_begin(i) + n, histories->firstdouble[i] + 3 * n + offset);
     }
     pairs.end_row();
   }
-  pairs.set_touching(std::move(touching));
 }
 
 void FusedVerlet::store_state(int from) {
@@ -131,23 +131,22 @@ void FusedVerlet::store_histories() {
   // Pair::compute() sets this flag: the list is newer than what fix contacthistory holds
   int dimension = 0;
   *static_cast<int*>(force->pair->extract("computeflag", dimension)) = 1;
+  const LAMMPS_NS::NeighList* histories = history_list();
+  if (!histories) return;
   const int offset = plan_.pair->history_offset();
-  if (offset < 0) return;
-  const LAMMPS_NS::NeighList& histories =
-      *static_cast<const LAMMPS_NS::PairGran&>(*force->pair).list->listgranhistory;
-  ContactList& pairs = loop_.pairs();
-  const std::vector<TouchingPair>& touching = pairs.touching();
-  auto pair = touching.begin();
+  const ContactList& pairs = loop_.pairs();
   for (int i = 0; i < loop_.counts().local; ++i) {
-    const int begin = pairs.row_begin(i), count = pairs.row_end(i) - begin;
-    std::fill_n(histories.firstneigh[i], count, 0);
-    std::fill_n(histories.firstdouble[i], 3 * count, 0.0);
-    for (; pair != touching.end() && pair->candidate < begin + count; ++pair) {
-      const int n = pair->candidate - begin;
-      histories.firstneigh[i][n] = touching_flags();
-      std::copy_n(pair->spring, 3, histories.firstdouble[i] + 3 * n + offset);
-    }
+    const int count = pairs.row_end(i) - pairs.row_begin(i);
+    std::fill_n(histories->firstneigh[i], count, 0);
+    std::fill_n(histories->firstdouble[i], 3 * count, 0.0);
   }
+  int i = 0;
+  pairs.visit_touching([&](int candidate, const double* spring) {
+    while (candidate >= pairs.row_end(i)) ++i;
+    const int n = candidate - pairs.row_begin(i);
+    histories->firstneigh[i][n] = touching_flags();
+    std::copy_n(spring, 3, histories->firstdouble[i] + 3 * n + offset);
+  });
 }
 
 }  // namespace gasgrain::plugins

@@ -12,7 +12,7 @@ constexpr double near_share = 0.3;
 
 }  // namespace
 
-void GrainLoop::start(GrainCounts counts, const PairLaw& law, std::size_t candidates) {
+void GrainLoop::start(GrainCounts counts, const PairLaw& law, PairCounts room) {
   counts_ = counts;
   law_ = &law;
   const int size = counts.total() + 2;
@@ -28,7 +28,7 @@ void GrainLoop::start(GrainCounts counts, const PairLaw& law, std::size_t candid
   const PairMember point{.type = 1, .mass = 1.0, .radius = 0.0, .frozen = false};
   for (int n = counts.total(); n < size; ++n)
     set_grain(n, {places[n - counts.total()], at_rest, at_rest, point, false});
-  pairs_.start(counts.local, counts.total(), candidates);
+  pairs_.start(counts.local, counts.total(), room);
 }
 
 void GrainLoop::set_grain(int i, const GrainState& state) {

@@ -54,7 +54,7 @@ class GrainLoop {
   // Called for every local grain with its contact load, before integration.
   using Observer = std::function<void(int grain, const LoadRecord& load)>;
 
-  void start(GrainCounts counts, const PairLaw& law, std::size_t candidates);
+  void start(GrainCounts counts, const PairLaw& law, PairCounts room);
   void set_grain(int i, const GrainState& state);
   ContactList& pairs() { return pairs_; }
   std::vector<WallContacts>& walls() { return walls_; }
