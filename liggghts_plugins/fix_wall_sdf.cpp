@@ -200,6 +200,10 @@ int FixWallSdf::tag(int i) const {
   return atom->tag[i];
 }
 
+int FixWallSdf::type(int i) const {
+  return atom->type[i];
+}
+
 // Grains move less than the skin until the lists are built again, and the distance changes by no
 // more than they move, so all others cost nothing. A wall that sweeps may come nearer by a grain
 // radius more before it asks for new lists.

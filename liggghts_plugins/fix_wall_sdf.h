@@ -74,6 +74,7 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
     return motion_.by_variable.exists() && !motion_.by_variable.follows_time(*lmp);
   }
   int tag(int i) const;
+  int type(int i) const;
   // Puts the wall where it is in the present step.
   void place_wall();
   double step_duration() const;  // s

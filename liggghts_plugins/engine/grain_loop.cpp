@@ -20,7 +20,6 @@ void GrainLoop::start(GrainCounts counts, const PairLaw& law, PairCounts room) {
   spins_.resize(size);
   members_.clear();
   if (counts.total() == 0) members_.push_back({.type = 1, .mass = 1, .radius = 1, .frozen = false});
-  types_.resize(size);
   fixed_.resize(size);
   some_fixed_ = false;
   const double places[2][3] = {{0, 0, 0}, {1, 0, 0}}, at_rest[3] = {0, 0, 0};
@@ -45,7 +44,6 @@ void GrainLoop::set_grain(int i, const GrainState& state) {
   grain.inverse_mass = 1.0 / mass;
   spin.inverse_inertia = radius > 0 ? 1.0 / (sphere * mass * radius * radius) : 0.0;
   if (i < counts_.total()) note_member(i, state.contact);
-  types_[i] = state.contact.type;
   fixed_[i] = state.fixed ? 1 : 0;
   some_fixed_ = some_fixed_ || state.fixed;
 }
@@ -116,7 +114,6 @@ void GrainLoop::force_pass(const PassSettings& settings, const Observer* observe
                               .largest = largest_};
   const WallBatch wall_batch{.grains = grains_.data(),
                              .spins = spins_.data(),
-                             .types = types_.data(),
                              .ring = ring_,
                              .step = settings.slip,
                              .travelled = travelled_};

@@ -95,7 +95,6 @@ class GrainLoop {
   std::vector<GrainRecord> grains_;  // local, ghosts, two that never touch
   std::vector<SpinRecord> spins_;
   std::vector<PairMember> members_;  // of all grains, or one that all of them are like
-  std::vector<int> types_;
   std::vector<unsigned char> fixed_;
   bool some_fixed_ = false;
   std::vector<LoadRecord> loads_;

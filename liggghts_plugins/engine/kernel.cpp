@@ -56,6 +56,26 @@ GASGRAIN_LANES_INLINE unsigned nearer_than(const GrainRecord* grains, const int*
   return bits(dot(d, d) < reach * reach);
 }
 
+// Second grains of pairs lie layers of grains away in memory, in the second or third level of the
+// cache; asking for them this much ahead made steps of dense beds a quarter to a third shorter.
+constexpr int groups_ahead = 10, contact_groups_ahead = 2;
+
+GASGRAIN_LANES_INLINE void ask_for_grains(const GrainRecord* grains, const PairRange& pairs,
+                                          int p) {
+  if (p >= pairs.end) return;
+  for (int lane = 0; lane < group_size; ++lane) __builtin_prefetch(grains + pairs.second[p + lane]);
+}
+
+// The positions are near already: pairs have been tested just before.
+GASGRAIN_LANES_INLINE void ask_for_contacts(const ContactBatch& batch, int c) {
+  if (c + group_size > batch.count) return;
+  for (int lane = 0; lane < group_size; ++lane) {
+    const int second = batch.second[batch.contacts[c + lane]];
+    __builtin_prefetch(batch.spins + second);
+    __builtin_prefetch(batch.ring.slots + (second & batch.ring.mask), 1);
+  }
+}
+
 int near_pairs(const GrainRecord* grains, const PairRange& pairs, double margin, int* places) {
   int count = 0;
   for (int p = pairs.begin; p < pairs.end; p += group_size) {
@@ -70,6 +90,7 @@ int touching_pairs(const GrainRecord* grains, const PairRange& pairs, unsigned c
                    SpringRecord* springs, int* places) {
   int count = 0;
   for (int p = pairs.begin; p < pairs.end; p += group_size) {
+    ask_for_grains(grains, pairs, p + groups_ahead * group_size);
     const unsigned set = nearer_than(grains, pairs.first + p, pairs.second + p, 0.0);
     unsigned parted = touched[p / group_size] & ~set;
     touched[p / group_size] = static_cast<unsigned char>(set);
@@ -214,6 +235,7 @@ void loads(ContactBatch& batch) {
   const LaneMask lanes = {0, 1, 2, 3, 4, 5, 6, 7};
   Lanes overlap = {}, relative = {};
   for (int c = 0; c < batch.count; c += group_size) {
+    ask_for_contacts(batch, c + contact_groups_ahead * group_size);
     const LaneMask valid = lanes < static_cast<long long>(batch.count - c);
     loads_of_group<normal, model, uniform>(batch, batch.contacts + c, valid, common, overlap,
                                            relative);

@@ -1,7 +1,5 @@
 #include "liggghts_plugins/engine/wall_contacts.hpp"
 
-#include <algorithm>
-
 namespace gasgrain::plugins {
 
 namespace {
@@ -12,14 +10,16 @@ using ConstColumn = Eigen::Map<const Vec3>;
 }  // namespace
 
 void WallContacts::load(int local_count) {
-  grains_ = wall_->candidates();
-  touches_after_.assign(grains_.size(), 0.0);
-  swept_ = 0.0;
+  candidates_.clear();
   block_begin_.clear();
-  for (int begin = 0; begin < local_count; begin += grains_per_block)
-    block_begin_.push_back(static_cast<int>(
-        std::lower_bound(grains_.begin(), grains_.end(), begin) - grains_.begin()));
-  block_begin_.push_back(static_cast<int>(grains_.size()));
+  swept_ = 0.0;
+  for (const int i : wall_->candidates()) {
+    while (static_cast<int>(block_begin_.size()) * grains_per_block <= i)
+      block_begin_.push_back(static_cast<int>(candidates_.size()));
+    candidates_.push_back({i, wall_->tag(i), wall_->type(i), 0.0});
+  }
+  const int blocks = (local_count + grains_per_block - 1) / grains_per_block;
+  block_begin_.resize(blocks + 1, static_cast<int>(candidates_.size()));
 }
 
 void WallContacts::begin_step() {
@@ -46,11 +46,12 @@ void WallContacts::add_block(int block, const WallBatch& batch) {
   std::vector<Vec3>& springs = wall_->springs();
   const double travelled = batch.travelled + swept_;
   for (int c = block_begin_[block]; c < block_begin_[block + 1]; ++c) {
-    if (travelled < touches_after_[c]) continue;
-    const int i = grains_[c];
+    Candidate& candidate = candidates_[c];
+    if (travelled < candidate.touches_after) continue;
+    const int i = candidate.grain;
     const GrainRecord& record = batch.grains[i];
-    const GrainAtWall grain{.tag = wall_->tag(i),
-                            .type = batch.types[i],
+    const GrainAtWall grain{.tag = candidate.tag,
+                            .type = candidate.type,
                             .radius = record.radius,
                             .mass = 1.0 / record.inverse_mass,
                             .position = ConstColumn(record.position),
@@ -62,7 +63,7 @@ void WallContacts::add_block(int block, const WallBatch& batch) {
       Column(sum.force) += touch.force;
       Column(sum.torque) += touch.torque;
     } else {
-      touches_after_[c] = travelled + touch.gap / steepest;
+      candidate.touches_after = travelled + touch.gap / steepest;
     }
   }
 }

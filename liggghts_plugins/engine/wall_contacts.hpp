@@ -19,7 +19,6 @@ namespace gasgrain::plugins {
 struct WallBatch {
   const GrainRecord* grains;
   const SpinRecord* spins;
-  const int* types;
   LoadRing ring;
   TangentialStep step;
   double travelled;  // m, at least what any grain has moved since the walls were loaded
@@ -42,9 +41,13 @@ class WallContacts {
   void add_block(int block, const WallBatch& batch);
 
   FixWallSdf* wall_;
-  std::vector<int> grains_;            // ascending
+  struct Candidate {
+    int grain, tag, type;
+    double touches_after;  // m, `travelled` before which there is no contact
+  };
+
+  std::vector<Candidate> candidates_;  // of ascending grains, as those of the fix
   std::vector<int> block_begin_;       // per block, and the end
-  std::vector<double> touches_after_;  // m, `travelled` before which there is no contact
   double swept_ = 0.0;                 // m, at least what any point of the wall has moved
   WallLoad load_;
 };

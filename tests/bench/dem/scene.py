@@ -149,8 +149,8 @@ def stock_styles(scene, model, mesh_tubes):
     for n, (x, z, radius) in enumerate(tubes):
         if mesh_tubes:
             text += f"fix mesh{n} all mesh/surface file tube{n}.stl type 2\n"
-        else:
-            text += (f"fix tube{n} {wall} primitive type 2 ycylinder {radius} {x} {z} "
+        else:  # a ycylinder's axis is given by z, then x
+            text += (f"fix tube{n} {wall} primitive type 2 ycylinder {radius} {z} {x} "
                      f"{options}\n")
     if tubes and mesh_tubes:
         meshes = " ".join(f"mesh{n}" for n in range(len(tubes)))
