@@ -144,7 +144,7 @@ def draw_tubes_closely(directory, picture, start, tubes):
     top = max(z for _, z in tube_axes(tubes)) + 0.02
     figure, (flow, mean_axes, axes) = pyplot.subplots(
         1, 3, figsize=(12, 4.6), layout="constrained", width_ratios=[1.1, 0.8, 1.5])
-    image = pictures.void_fraction_in_section(flow, void, (0, WIDTH, 0, layers * cell))
+    image = pictures.void_fraction_in_section(flow, void, (0, WIDTH, 0, layers * cell), "0.3")
     x, z = MM * cell * (numpy.arange(columns) + 0.5), MM * cell * (numpy.arange(layers) + 0.5)
     shown = z < MM * top
     flow.streamplot(x, z[shown], flux[shown, :, 0], flux[shown, :, 1], color="white",
