@@ -19,7 +19,8 @@ struct FaceMedium {
   VectorField weight_below, weight_above;
   VectorField momentum_exchange;  // B_f on owned faces, kg m^-3 s^-1
   VectorField exchange_momentum;  // (B v)_f on owned faces, kg m^-2 s^-2
-  VectorField density_scaling;  // 1 + (gamma - 1) alpha_f on faces; only when the walls span bodies
+  // s on faces, with volume forcing or implicit viscosity, where it does not count as gas.
+  VectorField density_scaling;
   bool has_scaling = false;
   // Work space: values of cells that lend and of their hosts.
   std::array<std::vector<double>, 2> lent;
@@ -35,7 +36,7 @@ void find_walls(FaceMedium& medium, const GasDomain& domain);
 void update(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains);
 
 // dt / (rho (1 + K)) = dt / (rho + dt B / eps): the velocity that a unit pressure gradient removes
-// in a step of dt [s], m^3 s/kg; less by the density scaling of volume forcing.
+// in a step of dt [s], m^3 s/kg; less by the density scaling.
 inline double mobility(const FaceMedium& medium, double density, double dt, int direction,
                        std::ptrdiff_t n) {
   const double inertia =
@@ -43,6 +44,16 @@ inline double mobility(const FaceMedium& medium, double density, double dt, int 
   if (!medium.has_grains) return dt / inertia;
   return dt / (inertia +
                dt * medium.momentum_exchange[direction][n] / medium.void_fraction[direction][n]);
+}
+
+// eps (dt - (rho + dt B/eps) mobility): what density scaling keeps of the momentum that a unit
+// pressure gradient would take per volume in a step, s.
+inline double held_back(const FaceMedium& medium, double density, double dt, int direction,
+                        std::ptrdiff_t n) {
+  const double eps = medium.has_grains ? medium.void_fraction[direction][n] : 1.0;
+  const double exchange = medium.has_grains ? medium.momentum_exchange[direction][n] : 0.0;
+  const double inertia = density + dt * exchange / eps;
+  return eps * dt * (1.0 - mobility(medium, density, dt, direction, n) * inertia / dt);
 }
 
 // Void fraction of a face: 1 without grains.

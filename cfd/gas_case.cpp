@@ -76,10 +76,23 @@ void read_body_method(Numerics& numerics, const ConfigTable& table) {
       table.number_or("density_scaling", numerics.density_scaling, {.lower = 1.0, .upper = 1e12});
 }
 
+// After the keys that it depends on.
+void read_viscosity(Numerics& numerics, const ConfigTable& table) {
+  if (table.choice_or("viscosity", "explicit", {"explicit", "implicit"}) == "explicit") return;
+  numerics.viscosity = Viscosity::implicit_step;
+  if (numerics.time_scheme != TimeScheme::ab2) {
+    table.fail("viscosity", "is \"implicit\", which needs time_scheme = \"ab2\"");
+  }
+  if (numerics.immersed_boundary != BodyMethod::interpolation) {
+    table.fail("viscosity", "is \"implicit\", which needs immersed_boundary = \"interpolation\"");
+  }
+}
+
 Numerics read_numerics(const ConfigTable& table) {
-  expect_only(table, {"convection", "pressure_solver", "pressure_fallback", "pressure_tolerance",
-                      "pressure_iterations", "reference_pressure", "time_scheme", "courant_number",
-                      "largest_step", "ranks", "immersed_boundary", "density_scaling"});
+  expect_only(table,
+              {"convection", "pressure_solver", "pressure_fallback", "pressure_tolerance",
+               "pressure_iterations", "reference_pressure", "time_scheme", "courant_number",
+               "largest_step", "ranks", "immersed_boundary", "density_scaling", "viscosity"});
   Numerics n;
   n.convection = read_convection(table);
   n.pressure_solver = read_pressure_solver(table);
@@ -96,6 +109,7 @@ Numerics read_numerics(const ConfigTable& table) {
                                      {.lower = 0.0, .upper = largest, .lower_open = true});
   n.largest_step = table.number_or("largest_step", n.largest_step, Range::positive());
   read_body_method(n, table);
+  read_viscosity(n, table);
   if (table.has("ranks")) n.ranks = table.integers3("ranks", {.lower = 1, .upper = 1e6});
   return n;
 }

@@ -25,6 +25,8 @@ enum class Convection { none, central, van_leer };
 
 enum class TimeScheme { ab2, rk2 };
 
+enum class Viscosity { explicit_step, implicit_step };
+
 enum class BodyMethod { interpolation, volume_forcing };
 
 struct Numerics {
@@ -35,6 +37,7 @@ struct Numerics {
   int pressure_iterations = 200;     // largest number of CG iterations before the fallback
   double reference_pressure = 0.0;   // Pa, mean of a region without outlet
   TimeScheme time_scheme = TimeScheme::ab2;
+  Viscosity viscosity = Viscosity::explicit_step;  // implicit: with ab2 and interpolation only
   BodyMethod immersed_boundary = BodyMethod::interpolation;
   double density_scaling = 1000.0;  // gamma, with volume forcing: density inside bodies over rho
   double courant_number = 0.25;     // largest |u| dt / dx

@@ -17,7 +17,7 @@ namespace gasgrain::cfd {
 namespace {
 
 constexpr const char* format = "gasgrain gas checkpoint";
-constexpr std::int32_t version = 2;
+constexpr std::int32_t version = 3;
 constexpr double same_fraction = 1e-9;  // of a cell; other ranks round alike
 
 const std::vector<std::string> fixed_sections{"grid.", "gas.", "body[", "fixed_bed."};
@@ -123,6 +123,7 @@ void check_walls(Hdf5File& file, const std::string& path, const GasSolver& solve
 void RunCounters::visit_state(StateArchive& archive) {
   archive.number_of("steps", steps);
   archive.number_of("iterations", iterations);
+  archive.number_of("viscous_iterations", viscous_iterations);
   archive.number_of("fallbacks", fallbacks);
   archive.number_of("shortened", shortened);
   archive.number("largest_divergence", largest_divergence);

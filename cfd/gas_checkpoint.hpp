@@ -18,6 +18,7 @@ namespace gasgrain::cfd {
 struct RunCounters {
   long steps = 0;
   long iterations = 0;                           // of the pressure
+  long viscous_iterations = 0;                   // of implicit viscosity
   long fallbacks = 0;                            // steps whose pressure another method had to solve
   long shortened = 0;                            // steps shorter than run.step for stability
   std::array<long, step_limit_count> limited{};  // steps by the limit that bound them

@@ -180,6 +180,7 @@ void GasRun::give_up(const UserError& error, double dt) {
 void GasRun::record(const StepReport& report, double dt) {
   ++counters_.steps;
   counters_.iterations += report.pressure.iterations;
+  counters_.viscous_iterations += report.viscous_iterations;
   counters_.fallbacks += report.pressure.fallbacks;
   counters_.largest_divergence = std::max(counters_.largest_divergence, report.divergence);
   counters_.largest_backflow = std::max(counters_.largest_backflow, report.backflow);

@@ -16,8 +16,10 @@
 //                          c = eps dt/(rho (1 + K))
 //   5  u = u* - (c/eps) grad p
 //
-// With time_scheme = rk2 (Heun) steps 1 to 5 are taken twice from u_n: first with the bracket of
-// u_n alone, then with the mean of that and the bracket of what the first stage gave.
+// With viscosity = implicit the stress of the bracket is taken at the end of the step, together
+// with step 3 (implicit_viscosity.cpp). With time_scheme = rk2 (Heun) steps 1 to 5 are taken twice
+// from u_n: first with the bracket of u_n alone, then with the mean of that and the bracket of what
+// the first stage gave.
 //
 // a is the open share of a face, alpha the solid share of a cell, both with the bodies where they
 // are at the end of the step; swept is the volume that moving bodies leave (moving_walls.cpp). eps,
@@ -54,20 +56,26 @@ constexpr double walls_are_there = 1e-9;
 void GasSolver::State::evaluate_slope() {
   std::swap(slope, old_slope);
   if (domain.has_motion) {  // the volumes of faces have changed
-    old_slope.convection = volume_integral(domain, old_slope.total) - old_slope.viscous;
+    if (implicit_viscosity) {
+      old_slope.viscous = volume_integral(domain, old_slope.stress);
+      old_slope.convection = volume_integral(domain, old_slope.total);
+    } else {
+      old_slope.convection = volume_integral(domain, old_slope.total) - old_slope.viscous;
+    }
   }
   evaluate(slope, domain, medium, velocity, gas_case.numerics.convection);
 }
 
 // Steps 1 and 2 on the faces that take part.
-void GasSolver::State::predict(double dt, const AdamsBashforth& weights) {
+void GasSolver::State::predict(double dt, const AdamsBashforth& weights,
+                               const VectorField& slope_now, const VectorField& slope_before) {
   const double rho = domain.gas.density;
   for (int d = 0; d < 3; ++d) {
     if (!domain.solved[d]) continue;
     const double g = domain.gas.gravity[d] - driving.value()[d] / rho;
     const double* part = domain.walls.takes_part[d].data();
-    const double* now = slope.total[d].data();
-    const double* before = old_slope.total[d].data();
+    const double* now = slope_now[d].data();
+    const double* before = slope_before[d].data();
     const double* eps = medium.void_fraction[d].data();
     const double* b = medium.momentum_exchange[d].data();
     const double* bv = medium.exchange_momentum[d].data();
@@ -88,17 +96,87 @@ void GasSolver::State::predict(double dt, const AdamsBashforth& weights) {
   }
 }
 
+// Of the pressure of the last step, without the driving gradient, which acts with gravity.
+double GasSolver::State::old_gradient(int d, std::ptrdiff_t n) const {
+  if (steps_from_start < settled_steps) return 0.0;
+  return projection.pressure_gradient()[d][n] - domain.walls.takes_part[d][n] * driving.value()[d];
+}
+
+// eps rho (u + dt g) + dt (force + B v - eps grad p_old)
+void GasSolver::State::set_right_hand_side(VectorField& result, double dt) const {
+  const double rho = domain.gas.density;
+  for (int d = 0; d < 3; ++d) {
+    if (!domain.solved[d]) continue;
+    const double g = domain.gas.gravity[d] - driving.value()[d] / rho;
+    const double* total = forces[d].data();
+    const double* eps = medium.void_fraction[d].data();
+    const double* bv = medium.exchange_momentum[d].data();
+    const double* u = velocity[d].data();
+    double* right = result[d].data();
+    const auto set = [&](const auto& void_fraction, const auto& drag) {
+      for_box(all_faces(domain, d), velocity[d], [=, this](std::ptrdiff_t n) {
+        right[n] = void_fraction(n) * (rho * (u[n] + dt * g) - dt * old_gradient(d, n)) +
+                   dt * (total[n] + drag(n));
+      });
+    };
+    if (medium.has_grains) {
+      set([=](std::ptrdiff_t n) { return eps[n]; }, [=](std::ptrdiff_t n) { return bv[n]; });
+    } else {
+      set([](std::ptrdiff_t) { return 1.0; }, [](std::ptrdiff_t) { return 0.0; });
+    }
+  }
+}
+
+// See implicit_viscosity.cpp.
+int GasSolver::State::predict_implicitly(double dt, const AdamsBashforth& weights) {
+  const auto add = [&](const VectorField& field, double weight) {
+    for (int d = 0; d < 3; ++d) {
+      for_box(all_faces(domain, d), forces[d],
+              [total = forces[d].data(), value = field[d].data(), weight](std::ptrdiff_t n) {
+                total[n] += weight * value[n];
+              });
+    }
+  };
+  stress_weights = cfd::stress_weights(dt, previous_dt);
+  for (Field& component : forces) component.fill(0.0);
+  add(slope.total, weights.now);
+  add(old_slope.total, weights.before);
+  add(slope.stress, stress_weights.now);
+  add(old_slope.stress, stress_weights.before);
+  set_right_hand_side(implicit_viscosity->right_hand_side(), dt);
+  set_solid_faces(velocity, domain);
+  const int iterations = implicit_viscosity->solve(velocity, medium, immersed_boundary,
+                                                   {.dt = dt, .coming = stress_weights.coming});
+  add(implicit_viscosity->stress(), stress_weights.coming);
+  if (medium.has_scaling) {
+    const double ratio = dt / explicit_viscous_step(domain, TimeScheme::ab2);
+    immersed_boundary.scale_density(medium, domain, std::max(ratio, 1.0));
+  }
+  predict(dt, {.now = 1.0, .before = 0.0}, forces, forces);
+  return iterations;
+}
+
+Vec3 GasSolver::State::impose_bodies(double dt) {
+  if (domain.walls.spans_bodies) return volume_forcing.apply(velocity, domain, medium, dt);
+  if (!implicit_viscosity) return immersed_boundary.apply(velocity, domain, medium, dt);
+  return immersed_boundary.impose(
+      velocity, implicit_viscosity->velocity(),
+      [this](int d, std::ptrdiff_t n) { return old_gradient(d, n); }, domain, medium, dt);
+}
+
 void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double dt,
                                   const AdamsBashforth& weights, const Field* void_before) {
   const double speed_before = speeds.maxCoeff();
-  predict(dt, weights);
+  if (implicit_viscosity) {
+    report.viscous_iterations = predict_implicitly(dt, weights);
+  } else {
+    predict(dt, weights, slope.total, old_slope.total);
+  }
   clock.finish(report.times, Pass::predict);
   set_solid_faces(velocity, domain);
   fill_velocity_ghosts(domain, medium, velocity);
   if (domain.walls.has_bodies) {
-    report.momentum.body = domain.walls.spans_bodies
-                               ? volume_forcing.apply(velocity, domain, medium, dt)
-                               : immersed_boundary.apply(velocity, domain, medium, dt);
+    report.momentum.body = impose_bodies(dt);
     fill_velocity_ghosts(domain, medium, velocity);
   }
   if (driving.present()) {
@@ -118,6 +196,10 @@ void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double d
     report.momentum.body +=
         volume_forcing.add_pressure(projection.pressure_gradient(), domain, medium, dt);
   }
+  if (implicit_viscosity && domain.walls.has_bodies) {
+    report.momentum.body +=
+        immersed_boundary.add_pressure(projection.pressure_gradient(), domain, medium, dt);
+  }
   if (driving.present()) driving.add_to(projection.pressure_gradient());
   fill_velocity_ghosts(domain, medium, velocity);
 }
@@ -132,9 +214,21 @@ void GasSolver::State::measure_loads(MomentumBudget& budget, double dt,
   }
   loads.add_stress(slope.total, dt * weights.now);
   loads.add_stress(old_slope.total, dt * weights.before);
+  if (implicit_viscosity) {
+    loads.add_stress(implicit_viscosity->stress(), dt * stress_weights.coming);
+    loads.add_stress(slope.stress, dt * stress_weights.now);
+    loads.add_stress(old_slope.stress, dt * stress_weights.before);
+  }
   budget.body_stress = -loads.stress_impulse();
   loads.add_pressure(pressure, projection.pressure_gradient(), driving.value(), dt);
   loads.finish(dt);
+}
+
+// Momentum that the stress gave to this rank's gas, N s.
+Vec3 GasSolver::State::implicit_viscous_impulse(double dt) const {
+  const Vec3 coming = volume_integral(domain, implicit_viscosity->stress());
+  return dt * (stress_weights.coming * coming + stress_weights.now * slope.viscous +
+               stress_weights.before * old_slope.viscous);
 }
 
 void GasSolver::State::check_finite(double dt, double speed_before) const {
@@ -194,6 +288,7 @@ StepReport GasSolver::advance(double dt) {
   if (s.driving.present()) s.driving.observe(s.velocity, s.medium);
   s.time += dt;
   s.previous_dt = dt;
+  s.steps_from_start = std::min(s.steps_from_start + 1, settled_steps);
   s.check_finite(dt, s.speeds.maxCoeff());
 
   report.backflow = backflow(domain, s.medium, s.velocity);
@@ -206,7 +301,10 @@ StepReport GasSolver::advance(double dt) {
   budget.convection =
       momentum_with_new_void - momentum_before +
       dt * (weights.now * s.slope.convection + weights.before * s.old_slope.convection);
-  budget.viscous = dt * (weights.now * s.slope.viscous + weights.before * s.old_slope.viscous);
+  budget.viscous =
+      s.implicit_viscosity
+          ? s.implicit_viscous_impulse(dt)
+          : dt * (weights.now * s.slope.viscous + weights.before * s.old_slope.viscous);
   if (domain.walls.has_bodies) s.measure_loads(budget, dt, weights);
   s.momentum =
       add_forces(budget, domain, s.medium, s.velocity, s.projection.pressure_gradient(), dt);

@@ -56,6 +56,7 @@ struct StepReport {
   double divergence = 0.0;       // largest |continuity residual| * dt, relative to eps (-)
   double removed_mean = 0.0;     // of the pressure right-hand side, relative to the 1-norm of its
                                  // terms; 0 when the system is not singular
+  int viscous_iterations = 0;    // of implicit viscosity
   double swept_imbalance = 0.0;  // of sealed regions: net volume that moving bodies leave over what
                                  // they leave and take (-); evened out, see Projection
   double backflow = 0.0;         // m^3/s that enter through outlets after the step

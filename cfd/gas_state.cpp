@@ -1,11 +1,14 @@
 // Construction, moving walls, and what a restart needs.
 #include "cfd/gas_state.hpp"
 
+#include <utility>
+
 #include "cfd/boundary_checks.hpp"
 #include "cfd/ghost_values.hpp"
 #include "cfd/halo_exchange.hpp"
 #include "cfd/momentum_budget.hpp"
 #include "cfd/moving_walls.hpp"
+#include "coupling/shared/error.hpp"
 
 namespace gasgrain::cfd {
 
@@ -34,6 +37,15 @@ GasSolver::State::State(const GasCase& given, MPI_Comm communicator)
       velocity(fields(domain.size())),
       pressure(domain.size()) {
   slope.total = old_slope.total = fields(domain.size());
+  if (given.numerics.viscosity == Viscosity::implicit_step && domain.gas.viscosity > 0.0) {
+    GASGRAIN_ASSERT(given.numerics.time_scheme == TimeScheme::ab2 && !domain.walls.spans_bodies);
+    implicit_viscosity.emplace(domain);
+    slope.stress = old_slope.stress = forces = fields(domain.size());
+    medium.has_scaling = domain.walls.has_bodies;
+    if (medium.has_scaling) {
+      for (Field& scaling : medium.density_scaling) scaling = Field(domain.size(), 1.0);
+    }
+  }
   set_velocity([&](const Vec3&) { return gas_case.initial.velocity; });
   check_boundaries(domain, projection.regions());
 }
@@ -53,6 +65,7 @@ void GasSolver::State::set_velocity(const std::function<Vec3(const Vec3&)>& func
   speeds = largest_speeds(domain, velocity);
   momentum.reset();
   previous_dt = 0.0;
+  steps_from_start = 0;
 }
 
 // Cells and faces that the bodies give free keep the velocity of the wall and get the pressure next
@@ -87,6 +100,7 @@ void GasSolver::State::follow_walls(const VectorField& took_part) {
   immersed_boundary = ImmersedBoundary(domain);
   loads.find_walls();
   projection.follow_walls(pressure, took_part);
+  if (driving.present()) driving.add_to(projection.pressure_gradient());
 }
 
 void GasSolver::State::visit(StateArchive& archive) {
@@ -102,6 +116,7 @@ void GasSolver::State::visit(StateArchive& archive) {
   archive.faces("velocity", velocity);
   archive.cells("pressure", pressure);  // the first guess of the next solve
   archive.faces("slope", slope.total);
+  visit_stress(archive);
   archive.partial_sums("slope_convection", {slope.convection.data(), 3});
   archive.partial_sums("slope_viscous", {slope.viscous.data(), 3});
   if (driving.present()) {
@@ -109,6 +124,18 @@ void GasSolver::State::visit(StateArchive& archive) {
   }
   visit_grains(archive);
   if (archive.restores()) rebuild();
+}
+
+// A run that continues with the other kind of viscosity starts with a step of Euler's.
+void GasSolver::State::visit_stress(StateArchive& archive) {
+  archive.number_of("steps_from_start", steps_from_start);
+  bool apart = implicit_viscosity.has_value();
+  archive.number_of("stress_apart", apart);
+  if (apart != implicit_viscosity.has_value()) previous_dt = 0.0;
+  if (!apart) return;
+  VectorField stress = implicit_viscosity ? std::move(slope.stress) : fields(domain.size());
+  archive.faces("stress", stress);
+  if (implicit_viscosity) slope.stress = std::move(stress);
 }
 
 void GasSolver::State::visit_grains(StateArchive& archive) {

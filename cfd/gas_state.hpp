@@ -12,12 +12,17 @@
 #include "cfd/gas_domain.hpp"
 #include "cfd/gas_solver.hpp"
 #include "cfd/immersed_boundary.hpp"
+#include "cfd/implicit_viscosity.hpp"
 #include "cfd/interval_means.hpp"
 #include "cfd/momentum_slope.hpp"
 #include "cfd/projection.hpp"
 #include "cfd/volume_forcing.hpp"
 
 namespace gasgrain::cfd {
+
+// The pressure after the first step of a run holds the impulse that made the velocity continuous;
+// that after the second one is the first to stand for the next step's.
+inline constexpr int settled_steps = 2;
 
 struct GasSolver::State {
   State(const GasCase& given, MPI_Comm communicator);
@@ -26,16 +31,25 @@ struct GasSolver::State {
   bool move_bodies(double new_time);  // the shape of some body has moved
   void follow_walls(const VectorField& took_part);
   void evaluate_slope();
-  void predict(double dt, const AdamsBashforth& weights);
+  // Steps 1 and 2 with the two slopes by their weights.
+  void predict(double dt, const AdamsBashforth& weights, const VectorField& now,
+               const VectorField& before);
+  // The same with the stress at the end of the step; returns the iterations it took.
+  int predict_implicitly(double dt, const AdamsBashforth& weights);
+  void set_right_hand_side(VectorField& result, double dt) const;
+  double old_gradient(int d, std::ptrdiff_t n) const;  // Pa/m
+  Vec3 impose_bodies(double dt);                       // step 3; the momentum that it adds, N s
   // Steps 1 to 5 with the slopes at hand.
   void take_stage(StepReport& report, PassClock& clock, double dt, const AdamsBashforth& weights,
                   const Field* void_before);
   void measure_loads(MomentumBudget& budget, double dt, const AdamsBashforth& weights);
+  Vec3 implicit_viscous_impulse(double dt) const;
   void check_finite(double dt, double speed_before) const;
   // Face values as the grains of a cell see them.
   void sample(VectorField& velocity, VectorField& pressure_gradient, const VectorField& u,
               const VectorField& gradient) const;
   void visit(StateArchive& archive);
+  void visit_stress(StateArchive& archive);
   void visit_grains(StateArchive& archive);
   void rebuild();
 
@@ -54,6 +68,10 @@ struct GasSolver::State {
   Field pressure;
   Field old_void_fraction;  // of the cells at the start of the step
   MomentumSlope slope, old_slope;
+  std::optional<ImplicitViscosity> implicit_viscosity;
+  StressWeights stress_weights;  // of this step, with implicit viscosity
+  VectorField forces;            // with implicit viscosity: sum of slopes and stresses, N/m^3
+  int steps_from_start = 0;      // up to settled_steps
   std::optional<Vec3> momentum;  // of this rank's gas, while it is what the last step left, N s
   IntervalMeans means;
   double time = 0.0, previous_dt = 0.0;

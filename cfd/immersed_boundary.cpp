@@ -87,28 +87,102 @@ double ImmersedBoundary::at_point(const Face& face, const Field& velocity) const
   return sum;
 }
 
+double ImmersedBoundary::weight(const Face& face, int d, const GasDomain& domain,
+                                const FaceMedium& medium) const {
+  const double beta = medium.has_grains ? medium.momentum_exchange[d][face.face] : 0.0;
+  const double eps = face_void_fraction(medium, d, face.face), phi = face.distance;
+  return 1.0 / (1.0 + beta * phi * (phi + probe_length_) / (eps * domain.gas.viscosity));
+}
+
+ImmersedBoundary::Condition ImmersedBoundary::condition(const Face& face, int d,
+                                                        const Field& velocity,
+                                                        const GasDomain& domain,
+                                                        const FaceMedium& medium) const {
+  const double phi = face.distance, wall = domain.walls.wall_velocity[d][face.face];
+  return {weight(face, d, domain, medium),
+          wall + phi / (phi + probe_length_) * (at_point(face, velocity) - wall)};
+}
+
+// eps rho (1 + K) is what a change of u* is worth in the final velocity's balance.
+double ImmersedBoundary::worth(const Face& face, int d, const GasDomain& domain,
+                               const FaceMedium& medium, double dt) {
+  const double beta = medium.has_grains ? medium.momentum_exchange[d][face.face] : 0.0;
+  const double eps = face_void_fraction(medium, d, face.face);
+  return domain.control_volume[d][face.face] * (eps * domain.gas.density + dt * beta);
+}
+
 Vec3 ImmersedBoundary::apply(VectorField& velocity, const GasDomain& domain,
                              const FaceMedium& medium, double dt) {
   Vec3 impulse = Vec3::Zero();
-  const double mu = domain.gas.viscosity, rho = domain.gas.density;
-  if (mu == 0.0) return impulse;
+  if (domain.gas.viscosity == 0.0) return impulse;
   for (int d = 0; d < 3; ++d) {
     Field& u = velocity[d];
     std::vector<double>& changed = changed_;
     changed.clear();
     for (Face& face : faces_[d]) {
-      const double beta = medium.has_grains ? medium.momentum_exchange[d][face.face] : 0.0;
-      const double eps = face_void_fraction(medium, d, face.face);
-      const double phi = face.distance, wall = domain.walls.wall_velocity[d][face.face];
-      const double w = 1.0 / (1.0 + beta * phi * (phi + probe_length_) / (eps * mu));
-      const double profile = wall + phi / (phi + probe_length_) * (at_point(face, u) - wall);
+      const auto [w, profile] = condition(face, d, u, domain, medium);
       changed.push_back((1.0 - w) * u[face.face] + w * profile);
-      // eps rho (1 + K) is what a change of u* is worth in the final velocity's balance
-      face.impulse = domain.control_volume[d][face.face] * (eps * rho + dt * beta) *
-                     (changed.back() - u[face.face]);
+      face.impulse = worth(face, d, domain, medium, dt) * (changed.back() - u[face.face]);
       impulse[d] += face.impulse;
     }
     for (std::size_t m = 0; m < changed.size(); ++m) u[faces_[d][m].face] = changed[m];
+  }
+  return impulse;
+}
+
+void ImmersedBoundary::constrain(VectorField& residual, const VectorField& velocity,
+                                 const VectorField& diagonal, const GasDomain& domain,
+                                 const FaceMedium& medium) const {
+  for (int d = 0; d < 3; ++d) {
+    for (const Face& face : faces_[d]) {
+      const auto [w, profile] = condition(face, d, velocity[d], domain, medium);
+      const double difference = profile - velocity[d][face.face];
+      double& row = residual[d][face.face];
+      row = (1.0 - w) * row + w * diagonal[d][face.face] * difference;
+    }
+  }
+}
+
+void ImmersedBoundary::scale_density(FaceMedium& medium, const GasDomain& domain,
+                                     double ratio) const {
+  for (int d = 0; d < 3; ++d) {
+    medium.density_scaling[d].fill(1.0);
+    for (const Face& face : faces_[d]) {
+      medium.density_scaling[d][face.face] = 1.0 + weight(face, d, domain, medium) * (ratio - 1.0);
+    }
+  }
+}
+
+Vec3 ImmersedBoundary::add_pressure(const VectorField& gradient, const GasDomain& domain,
+                                    const FaceMedium& medium, double dt) {
+  Vec3 impulse = Vec3::Zero();
+  for (int d = 0; d < 3; ++d) {
+    for (Face& face : faces_[d]) {
+      const double added = domain.control_volume[d][face.face] *
+                           held_back(medium, domain.gas.density, dt, d, face.face) *
+                           gradient[d][face.face];
+      face.impulse += added;
+      impulse[d] += added;
+    }
+  }
+  return impulse;
+}
+
+Vec3 ImmersedBoundary::impose(VectorField& velocity, const VectorField& solved,
+                              const std::function<double(int, std::ptrdiff_t)>& old_gradient,
+                              const GasDomain& domain, const FaceMedium& medium, double dt) {
+  Vec3 impulse = Vec3::Zero();
+  for (int d = 0; d < 3; ++d) {
+    for (Face& face : faces_[d]) {
+      double& u = velocity[d][face.face];
+      const double returned = (1.0 - weight(face, d, domain, medium)) *
+                              mobility(medium, domain.gas.density, dt, d, face.face) *
+                              old_gradient(d, face.face);
+      const double value = solved[d][face.face] + returned;
+      face.impulse = worth(face, d, domain, medium, dt) * (value - u);
+      impulse[d] += face.impulse;
+      u = value;
+    }
   }
   return impulse;
 }

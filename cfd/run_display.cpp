@@ -148,6 +148,12 @@ void RunDisplay::finish(const StepReport& report, const RunCounters& counters,
       {"end_time", solver_.time(), "s", {}, {}, "simulated"},
       {"steps", double(counters.steps), "-", {}, {}, "since the start of the case"},
       {"pressure_iterations", double(counters.iterations) / steps, "-", {}, {}, "mean of a step"},
+      {"viscous_iterations",
+       double(counters.viscous_iterations) / steps,
+       "-",
+       {},
+       {},
+       "of implicit viscosity, mean of a step"},
       {"pressure_fallbacks", double(counters.fallbacks), "-", {}, {}, "steps that needed it"},
       {"largest_speed", report.largest_speed, "m/s", {}, {}, "at the end"},
       {"largest_divergence", counters.largest_divergence, "-", {}, {}, "of a cell's gas"},
@@ -197,6 +203,10 @@ void RunDisplay::finish(const StepReport& report, const RunCounters& counters,
     if (counters.shortened > 0) {
       std::printf("                        %ld were shorter than run.step to stay stable\n",
                   counters.shortened);
+    }
+    if (gas_case.numerics.viscosity == Viscosity::implicit_step) {
+      std::printf("                        viscosity implicit, %.1f iterations each\n",
+                  double(counters.viscous_iterations) / steps);
     }
     print_limits(report, counters);
     std::printf("  wall time             %s (%s)\n",

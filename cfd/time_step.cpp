@@ -48,6 +48,17 @@ Stability stability_of(TimeScheme scheme) {
   return {.courant_number = 0.25, .diffusion_number = 1.0 / 12.0};
 }
 
+double explicit_viscous_step(const GasDomain& domain, TimeScheme scheme) {
+  const double nu = domain.gas.viscosity / domain.gas.density;
+  double step = std::numeric_limits<double>::infinity();
+  for (int d = 0; d < 3; ++d) {
+    if (!domain.varies[d] || nu == 0.0) continue;
+    const double h = domain.spacing[d];
+    step = std::min(step, stability_of(scheme).diffusion_number * h * h / nu);
+  }
+  return step;
+}
+
 const char* name_of(StepLimit limit) {
   constexpr std::array<const char*, step_limit_count> names{"convection", "viscosity",
                                                             "acceleration", "stated"};
@@ -65,7 +76,6 @@ StepLimit StepLimits::binding() const {
 
 StepLimits step_limits(const GasDomain& domain, const Vec3& largest_speeds,
                        const Vec3& acceleration, const Numerics& numerics) {
-  const double nu = domain.gas.viscosity / domain.gas.density;
   const Vec3 speeds = largest_speeds.cwiseMax(domain.sides.largest_speeds());
   const double never = std::numeric_limits<double>::infinity();
   StepLimits limits{never, never, never, numerics.largest_step};
@@ -79,10 +89,9 @@ StepLimits step_limits(const GasDomain& domain, const Vec3& largest_speeds,
       limits.acceleration =
           std::min(limits.acceleration, transport_step(speeds[d], push, distance));
     }
-    if (domain.varies[d] && nu > 0.0) {
-      const double number = stability_of(numerics.time_scheme).diffusion_number;
-      limits.viscosity = std::min(limits.viscosity, number * h * h / nu);
-    }
+  }
+  if (numerics.viscosity == Viscosity::explicit_step) {
+    limits.viscosity = explicit_viscous_step(domain, numerics.time_scheme);
   }
   return limits;
 }

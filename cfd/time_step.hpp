@@ -27,6 +27,9 @@ struct Stability {
 };
 Stability stability_of(TimeScheme scheme);
 
+// Largest step that explicit viscosity allows, s; infinite without viscosity.
+double explicit_viscous_step(const GasDomain& domain, TimeScheme scheme);
+
 enum class StepLimit { convection, viscosity, acceleration, stated };
 inline constexpr int step_limit_count = 4;
 const char* name_of(StepLimit limit);
@@ -34,7 +37,7 @@ const char* name_of(StepLimit limit);
 // Largest step by each limit, s; infinite where it does not apply.
 struct StepLimits {
   double convection;    // Courant number of the velocities there are and that inlets will have
-  double viscosity;     // diffusion number in every direction that varies
+  double viscosity;     // diffusion number in every direction that varies; explicit only
   double acceleration;  // Courant number after gravity and driving gradients acted for the step
   double stated;        // numerics.largest_step
 

@@ -57,12 +57,8 @@ Vec3 VolumeForcing::add_pressure(const VectorField& gradient, const GasDomain& d
   const double rho = domain.gas.density;
   for (int d = 0; d < 3; ++d) {
     for (Face& face : faces_[d]) {
-      const double eps = face_void_fraction(medium, d, face.face);
-      const double exchange = medium.has_grains ? medium.momentum_exchange[d][face.face] : 0.0;
-      const double inertia = rho + dt * exchange / eps;
-      const double held_back = 1.0 - mobility(medium, rho, dt, d, face.face) * inertia / dt;
-      const double added =
-          domain.control_volume[d][face.face] * eps * dt * held_back * gradient[d][face.face];
+      const double added = domain.control_volume[d][face.face] *
+                           held_back(medium, rho, dt, d, face.face) * gradient[d][face.face];
       face.impulse += added;
       impulse[d] += added;
     }

@@ -119,6 +119,17 @@ TEST(GasCase, density_scaling_belongs_to_volume_forcing) {
       std::string::npos);
 }
 
+TEST(GasCase, implicit_viscosity_needs_ab2_and_interpolation) {
+  const std::string viscous = "[numerics]\nviscosity = \"implicit\"\n";
+  EXPECT_EQ(read(with("[numerics]\n", viscous)).numerics.viscosity, Viscosity::implicit_step);
+  EXPECT_EQ(read(complete).numerics.viscosity, Viscosity::explicit_step);
+  EXPECT_NE(error_of(with("[numerics]\n", viscous + "time_scheme = \"rk2\"\n")).find("ab2"),
+            std::string::npos);
+  EXPECT_NE(error_of(with("[numerics]\n", viscous + "immersed_boundary = \"volume-forcing\"\n"))
+                .find("interpolation"),
+            std::string::npos);
+}
+
 TEST(GasCase, boundaries_that_cannot_be_are_errors) {
   EXPECT_NE(error_of(with("y_lower = {type = \"periodic\"}", "y_lower = {type = \"slip\"}")), "");
   EXPECT_NE(error_of(with("[0, 1, 0]", "[1, 0, 0]")), "");  // wall moves through itself

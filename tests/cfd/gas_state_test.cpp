@@ -52,6 +52,12 @@ GasCase two_stage_vessel() {
   return c;
 }
 
+GasCase viscous_vessel() {
+  GasCase c = open_vessel();
+  c.numerics.viscosity = Viscosity::implicit_step;
+  return c;
+}
+
 struct Scene {
   const char* name;
   GasCase gas_case;
@@ -63,7 +69,8 @@ std::vector<Scene> scenes() {
           {"open", open_vessel(), false},
           {"sealed_with_grains", sealed_vessel(), true},
           {"moving_body", stirred_vessel(), false},
-          {"two_stages", two_stage_vessel(), true}};
+          {"two_stages", two_stage_vessel(), true},
+          {"implicit_viscosity", viscous_vessel(), true}};
 }
 
 // Steps of different length, so that the weights of the old slope matter.
