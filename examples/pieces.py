@@ -14,6 +14,8 @@ import common
 STOPPED = 75  # our exit code when a checkpoint was written and there is more to do
 STOPPED_WORDS = "Ended by a signal"  # of gasgrain in its log; mpirun may change its exit code
 RECORD = "pieces.json"
+# What LIGGGHTS itself writes on a signal, beside our checkpoint.
+FORCED = ("restart_forced_liggghts_*.data", "gas.*.state.h5")
 
 
 class Job:
@@ -68,12 +70,16 @@ def commit():
     return done.stdout.strip() if done.returncode == 0 else "unknown"
 
 
+def remove(directory, patterns):
+    for pattern in patterns:
+        for file in directory.glob(pattern):
+            file.unlink()
+
+
 def begin_anew(directory):
     """Removes the checkpoints and results of another run."""
     shutil.rmtree(directory / "points", ignore_errors=True)
-    for pattern in ("*.csv", "*.xdmf", "*.h5", "summary.json", RECORD):
-        for file in directory.glob(pattern):
-            file.unlink()
+    remove(directory, ("*.csv", "*.xdmf", "*.h5", "summary.json", RECORD))
 
 
 def start_variables(job):
@@ -127,6 +133,7 @@ def run_piece(job, how):
     code = wait(common.start_gasgrain(job.directory, job.script, how.ranks,
                                       {**job.variables, **start}), how.hours)
     piece["seconds"] = time.time() - piece["began"]
+    remove(job.directory, FORCED)
     # The summary is written at the end; a packing that is told to end ends without a checkpoint.
     signalled = log.exists() and STOPPED_WORDS in log.read_text(errors="replace")
     stopped = signalled or (code == 0 and not summary.exists())

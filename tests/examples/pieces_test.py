@@ -32,6 +32,7 @@ def keep():
     state.symlink_to(str(step))
 def stop(*_):
     keep()
+    pathlib.Path("restart_forced_liggghts_%d.data" % step).touch()
     pathlib.Path("log.liggghts").write_text("Ended by a signal at step %d" % step)
     sys.exit(1)
 signal.signal(signal.SIGTERM, stop)
@@ -78,6 +79,7 @@ class Pieces(unittest.TestCase):
         with self.assertRaises(SystemExit) as stopped:
             self.run_piece(hours=1.0 / 3600, time=100, pause=0.02)
         self.assertEqual(stopped.exception.code, 75)
+        self.assertEqual(list(self.directory.glob("restart_forced*")), [])
         self.run_piece(time=100, pause=0.02)
         starts = self.starts()
         self.assertEqual([start["resume"] for start in starts], [0, 1])
