@@ -20,12 +20,13 @@ fix insert all insert/pack seed 86028121 distributiontemplate mixture vel consta
 
 
 STREAM = f"""
-fix template all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant {RADIUS}
+fix template all particletemplate/sphere 15485863 atom_type 1 density constant 2500 &
+    radius constant {RADIUS}
 fix mixture all particledistribution/discrete 32452843 1 template 1.0
 fix face all mesh/surface/planar file face.stl type 1
 fix insert all insert/stream seed 86028121 distributiontemplate mixture nparticles 60 &
-    particlerate 2e4 insert_every 300 vel constant 0.1 0. -1. omega constant 30. 0. 20. overlapcheck yes &
-    all_in no insertion_face face
+    particlerate 2e4 insert_every 300 vel constant 0.1 0. -1. omega constant 30. 0. 20. &
+    overlapcheck yes all_in no insertion_face face
 """
 FACE = plate(1.5 * SIDE, (1.5e-3, 1.5e-3), (2 * SIDE - 1.5e-3, SIDE - 1.5e-3))
 

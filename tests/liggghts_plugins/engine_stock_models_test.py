@@ -5,8 +5,8 @@ Reference: the same executable with `gasgrain_engine off`, as in engine_test.py.
 
 import unittest
 
-from engine_scenes import (FORCES, RADIUS, SCALE, SIDE, EngineTest, crowd, files, reference_log, scene,
-                           thermo_of)
+from engine_scenes import (FORCES, RADIUS, SCALE, SIDE, EngineTest, crowd, files, reference_log,
+                           scene, thermo_of)
 from liggghts_run import Bench, dump_command, largest_difference, preamble, thermo
 
 

@@ -4,8 +4,8 @@
     tests/bench/dem/compare.py BUILD_DIRECTORY [--grains 50000] [--ranks 1] [--states ABC] ...
 
 The scene is a box with four tubes (scene.py), settled once and kept in out/bench. With `--bed FILE`
-it is a box of 50 x 10 x 200 mm without tubes and that bed of 0.5 mm grains (columns x,y,z), of which
-`--copies` are set side by side along y. States:
+it is a box of 50 x 10 x 200 mm without tubes and that bed of 0.5 mm grains (columns x,y,z), of
+which `--copies` are set side by side along y. States:
     A  grains of 0.48 mm with random velocities of 0.1 m/s: almost collisional
     B  settled, with random velocities of 0.1 m/s
     C  settled

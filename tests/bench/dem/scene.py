@@ -1,7 +1,8 @@
 """The scene of the grain benchmarks and the scripts of the programs that run it.
 
-A box of 50 x 10 x 200 mm with or without the four tubes of examples/fluidized_bed_tubes, all lengths
-times `scale`, filled with grains of 0.5 mm: at scale 1 the tubes are buried in 250 000 grains.
+A box of 50 x 10 x 200 mm with or without the four tubes of examples/fluidized_bed_tubes, all
+lengths times `scale`, filled with grains of 0.5 mm: at scale 1 the tubes are buried in 250 000
+grains.
 Contact law of every program: linear spring and dashpot with tangential history,
 k = k_t = 6250 N/m, e = 0.9, mu = 0.3, steps of 1e-6 s (an eleventh of the contact time).
 """
@@ -52,8 +53,9 @@ class Scene:
 
     def files(self):
         """What the programs read besides their script and the grains."""
-        return {"case.toml": self.case_file(),
-                **{f"tube{n}.stl": tube_surface(self, *tube) for n, tube in enumerate(self.tubes())}}
+        surfaces = {f"tube{n}.stl": tube_surface(self, *tube)
+                    for n, tube in enumerate(self.tubes())}
+        return {"case.toml": self.case_file(), **surfaces}
 
     def bodies(self):
         return [name for name, *_ in self.planes()] + (["tubes"] if self.with_tubes else [])

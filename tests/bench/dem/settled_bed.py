@@ -93,5 +93,6 @@ def settled(scene, count, gasgrain, ranks, path):
         write_bed(path, [place for _, place in rows])
     _, number, energy, contacts = re.findall(r"^ *Step .* mean *\n(.*)$", done.text,
                                                re.MULTILINE)[-1].split()
-    print(f"{contacts} contacts per grain, kinetic energy {float(energy) / float(number):.2g} J each")
+    energy_each = float(energy) / float(number)
+    print(f"{contacts} contacts per grain, kinetic energy {energy_each:.2g} J each", flush=True)
     return read_bed(path)
