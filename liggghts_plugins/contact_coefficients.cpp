@@ -1,6 +1,7 @@
 #include "liggghts_plugins/contact_coefficients.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace gasgrain::plugins {
 
@@ -23,20 +24,48 @@ GrainContact::GrainContact(const OriginalContact& original, CoarseGrainRatios l,
       tangential_damping_ratio_(original.tangential_damping_ratio),
       friction_coefficient_(original.friction_coefficient),
       original_spring_constant_(original.spring_constant),
+      work_of_adhesion_(original.work_of_adhesion),
+      rolling_friction_(original.rolling_friction),
       ratios_(l),
       exponent_(n) {}
 
-ContactCoefficients GrainContact::unlike_pair(double first_mass, double second_mass) const {
+// L of the head of the header; the common ratio when they are equal.
+double GrainContact::ratio_of_unlike(double first_mass, double second_mass) const {
   const double first_original = first_mass / cube(ratios_.first);
   const double second_original = second_mass / cube(ratios_.second);
   const double effective = first_mass * second_mass / (first_mass + second_mass);
   const double effective_original =
       first_original * second_original / (first_original + second_original);
   // L lies between the two ratios; the bound only removes round-off
-  const double ratio =
-      std::max(std::cbrt(effective / effective_original), std::min(ratios_.first, ratios_.second));
+  return std::max(std::cbrt(effective / effective_original),
+                  std::min(ratios_.first, ratios_.second));
+}
+
+ContactCoefficients GrainContact::unlike_pair(double first_mass, double second_mass) const {
+  const double effective = first_mass * second_mass / (first_mass + second_mass);
+  const double ratio = ratio_of_unlike(first_mass, second_mass);
   return of_effective_mass(effective,
                            grain_spring_constant(original_spring_constant_, ratio, exponent_));
+}
+
+SurfaceForces GrainContact::surface_of(double original_radius, double ratio) const {
+  const double growth = std::pow(ratio, 0.5 * (exponent_.value + 3.0));
+  return {.adhesion = 2.0 * std::numbers::pi * work_of_adhesion_ * original_radius * growth,
+          .rolling_friction = rolling_friction_};
+}
+
+SurfaceForces GrainContact::surface_between(const GrainSize& first, const GrainSize& second) const {
+  const double a = first.radius / ratios_.first, b = second.radius / ratios_.second;
+  const double ratio = equal_ratios_ ? ratios_.first : ratio_of_unlike(first.mass, second.mass);
+  return surface_of(a * b / (a + b), ratio);
+}
+
+SurfaceForces GrainContact::surface_of_first_against_fixed(const GrainSize& grain) const {
+  return surface_of(grain.radius / ratios_.first, ratios_.first);
+}
+
+SurfaceForces GrainContact::surface_of_second_against_fixed(const GrainSize& grain) const {
+  return surface_of(grain.radius / ratios_.second, ratios_.second);
 }
 
 }  // namespace gasgrain::plugins

@@ -14,6 +14,7 @@
 
 #include "coupling/shared/coarse_grain_scaling.hpp"
 #include "liggghts_plugins/contact_law.hpp"
+#include "liggghts_plugins/surface_forces.hpp"
 
 namespace gasgrain::plugins {
 
@@ -24,11 +25,19 @@ struct OriginalContact {
   double friction_coefficient;              // mu, -
   double tangential_stiffness_ratio = 1.0;  // k_t / k
   double tangential_damping_ratio = 1.0;    // eta_t / eta
+  double work_of_adhesion = 0.0;            // w, J/m^2
+  double rolling_friction = 0.0;            // mu_r, -
 };
 
 struct CoarseGrainRatios {
   double first;   // l_i
   double second;  // l_j; against a wall l_i again
+};
+
+// A grain as the surface forces of a contact need it.
+struct GrainSize {
+  double mass;    // kg
+  double radius;  // m
 };
 
 // The part of the law that a pair of types fixes; one entry of a table over type pairs.
@@ -52,7 +61,14 @@ class GrainContact {
     return of_effective_mass(mass, second_fixed_spring_);
   }
 
+  bool has_surface_forces() const { return work_of_adhesion_ > 0.0 || rolling_friction_ > 0.0; }
+  SurfaceForces surface_between(const GrainSize& first, const GrainSize& second) const;
+  SurfaceForces surface_of_first_against_fixed(const GrainSize& grain) const;
+  SurfaceForces surface_of_second_against_fixed(const GrainSize& grain) const;
+
  private:
+  double ratio_of_unlike(double first_mass, double second_mass) const;
+  SurfaceForces surface_of(double original_radius, double ratio) const;
   ContactCoefficients of_effective_mass(double mass, double k) const {
     const double eta = damping_factor_ * std::sqrt(mass * k);
     return {k, eta, tangential_stiffness_ratio_ * k, tangential_damping_ratio_ * eta,
@@ -69,6 +85,8 @@ class GrainContact {
   double tangential_damping_ratio_ = 1;
   double friction_coefficient_ = 0;
   double original_spring_constant_ = 0;  // N/m
+  double work_of_adhesion_ = 0;          // J/m^2
+  double rolling_friction_ = 0;
   CoarseGrainRatios ratios_{1, 1};
   StiffnessExponent exponent_;
 };

@@ -90,7 +90,8 @@ int64_t select_variant(int& count, char**& arguments, LAMMPS_NS::Custom_contact_
   throw UserError(
       "gran model cgm: combine it with `tangential history`, `tangential no_history` or "
       "`tangential "
-      "off` only; it has no cohesion, rolling friction or other surface models");
+      "off` only; adhesion and rolling friction of its own are the properties cgmWorkOfAdhesion "
+      "and cgmRollingFriction");
 }
 
 LIGGGHTS::PairStyles::IGranularPairStyle* create_pair(LAMMPS_NS::LAMMPS* lmp,

@@ -85,6 +85,8 @@ GrainContactTable::GrainContactTable(LAMMPS& lmp, const ContactSettings& setting
   const PairProperty friction(lmp, "coefficientFriction", Range::non_negative(), where);
   const PairProperty stiffness_ratio(lmp, "cgmTangentialStiffnessRatio", Range::positive(), where);
   const PairProperty damping_ratio(lmp, "cgmTangentialDampingRatio", Range::non_negative(), where);
+  const PairProperty adhesion(lmp, "cgmWorkOfAdhesion", Range::non_negative(), where);
+  const PairProperty rolling(lmp, "cgmRollingFriction", Range::non_negative(), where);
   spring.require(types);
   restitution.require(types);
   if (settings.tangential != TangentialModel::off) friction.require(types);
@@ -97,9 +99,12 @@ GrainContactTable::GrainContactTable(LAMMPS& lmp, const ContactSettings& setting
                                      .restitution = restitution.value(i, j, 1.0),
                                      .friction_coefficient = friction.value(i, j, 0.0),
                                      .tangential_stiffness_ratio = stiffness_ratio.value(i, j, 1.0),
-                                     .tangential_damping_ratio = damping_ratio.value(i, j, 1.0)};
+                                     .tangential_damping_ratio = damping_ratio.value(i, j, 1.0),
+                                     .work_of_adhesion = adhesion.value(i, j, 0.0),
+                                     .rolling_friction = rolling.value(i, j, 0.0)};
       const CoarseGrainRatios ratios{lmp.force->cg(i), lmp.force->cg(j)};
       contacts_[i * stride_ + j] = GrainContact(original, ratios, settings.stiffness_exponent);
+      has_surface_forces_ |= contacts_[i * stride_ + j].has_surface_forces();
     }
   }
 }

@@ -20,6 +20,8 @@ class GrainContactTable {
   //   coefficientFriction          mu >= 0            required unless tangential is off
   //   cgmTangentialStiffnessRatio  k_t / k > 0        1 when absent
   //   cgmTangentialDampingRatio    eta_t / eta >= 0   1 when absent
+  //   cgmWorkOfAdhesion            w >= 0, J/m^2      0 when absent
+  //   cgmRollingFriction           mu_r >= 0          0 when absent
   // and the coarse-grain ratios of the `coarsegraining` command. `where` begins every message.
   // Throws UserError: a property missing, out of range or not symmetric.
   GrainContactTable(LAMMPS_NS::LAMMPS& lmp, const ContactSettings& settings, const char* where);
@@ -27,8 +29,11 @@ class GrainContactTable {
   const GrainContact& operator()(int first_type, int second_type) const {
     return contacts_[first_type * stride_ + second_type];
   }
+  // Whether any pair of types has adhesion or rolling friction.
+  bool has_surface_forces() const { return has_surface_forces_; }
 
  private:
+  bool has_surface_forces_ = false;
   int stride_ = 0;
   std::vector<GrainContact> contacts_;
 };

@@ -82,6 +82,33 @@ inline ContactCoefficients coefficients(const GrainContact& contact, const PairM
   return contact.between(m.i, m.j);
 }
 
+// Surface forces of a pair, with the frozen one of it as a wall.
+struct PairSurface {
+  SurfaceForces forces;
+  RollingPair rolling;
+};
+
+PairSurface pair_surface(const GrainContact& contact, const PairMasses& m, const Grains& g, int i,
+                         int j) {
+  const GrainSize a{m.i, g.radius[i]}, b{m.j, g.radius[j]};
+  PairSurface pair;
+  pair.rolling.relative_spin = column(g.omega, i) - column(g.omega, j);
+  if (m.j_frozen || m.i_frozen) {
+    const GrainSize& free = m.j_frozen ? a : b;
+    pair.forces = m.j_frozen ? contact.surface_of_first_against_fixed(a)
+                             : contact.surface_of_second_against_fixed(b);
+    pair.rolling.effective_radius = free.radius;
+    pair.rolling.inertia = sphere_inertia(free.mass, free.radius);
+    return pair;
+  }
+  const double inertia_a = sphere_inertia(a.mass, a.radius);
+  const double inertia_b = sphere_inertia(b.mass, b.radius);
+  pair.forces = contact.surface_between(a, b);
+  pair.rolling.effective_radius = a.radius * b.radius / (a.radius + b.radius);
+  pair.rolling.inertia = inertia_a * inertia_b / (inertia_a + inertia_b);
+  return pair;
+}
+
 std::map<const LAMMPS_NS::LAMMPS*, PairGranCgm*>& pair_styles() {
   static std::map<const LAMMPS_NS::LAMMPS*, PairGranCgm*> styles;
   return styles;
@@ -196,10 +223,13 @@ double PairGranCgm::spring_energy() const {
       const int j = list.firstneigh[i][jj] & NEIGHMASK;
       const double overlap = g.radius[i] + g.radius[j] - (column(g.x, i) - column(g.x, j)).norm();
       if (overlap <= 0) continue;
-      const ContactCoefficients c =
-          coefficients(contacts_(g.type[i], g.type[j]), pair_masses(*parent_, g, i, j));
+      const GrainContact& contact = contacts_(g.type[i], g.type[j]);
+      const PairMasses masses = pair_masses(*parent_, g, i, j);
+      const ContactCoefficients c = coefficients(contact, masses);
       const double share = force->newton_pair || j < g.local_count ? 1.0 : 0.5;
       energy += share * 0.5 * c.spring_constant * overlap * overlap;
+      if (contact.has_surface_forces())
+        energy -= share * pair_surface(contact, masses, g, i, j).forces.adhesion * overlap;
     }
   }
   return energy;
@@ -250,29 +280,35 @@ void PairGranCgm::loop(PairGran& pair, Report report) {
                                .overlap = overlap,
                                .relative_velocity = v_i - column(g.v, j),
                                .lever_spin = lever_i * omega_i + lever_j * column(g.omega, j)};
-      const ContactCoefficients c =
-          coefficients(contacts_(g.type[i], g.type[j]), pair_masses(pair, g, i, j));
+      const GrainContact& contact = contacts_(g.type[i], g.type[j]);
+      const PairMasses masses = pair_masses(pair, g, i, j);
+      const ContactCoefficients c = coefficients(contact, masses);
 
       Vec3 displacement = Vec3::Zero();
       if (with_history) {
         touching[jj] |= contact_bits;
         displacement = Column(history + history_offset_);
       }
-      const ContactForce f = contact_force<tangential>(c, state, displacement, step);
+      ContactForce f = contact_force<tangential>(c, state, displacement, step);
+      Vec3 rolling = Vec3::Zero();  // torque on i
+      if (contact.has_surface_forces()) {
+        const PairSurface surface = pair_surface(contact, masses, g, i, j);
+        rolling = add_surface_forces(surface.forces, state.n, surface.rolling, step.duration, f);
+      }
       if (with_history && step.history == History::advance)
         Column(history + history_offset_) = displacement;
 
       if (apply) {
         f_i += f.force;
-        torque_i += lever_i * f.moment;
+        torque_i += lever_i * f.moment + rolling;
         if (both_sides || j < g.local_count) {
           const double relax_j = pair.relax(j);
           column(g.f, j) -= relax_j * f.force;
-          column(g.torque, j) += (relax_j * lever_j) * f.moment;
+          column(g.torque, j) += relax_j * (lever_j * f.moment - rolling);
         }
       }
-      report({i, j, delta.data(), state.n.data(), f.force, lever_i * f.moment, lever_j * f.moment,
-              rsq, history});
+      report({i, j, delta.data(), state.n.data(), f.force, lever_i * f.moment + rolling,
+              lever_j * f.moment - rolling, rsq, history});
     }
     const double relax_i = pair.relax(i);
     column(g.f, i) += relax_i * f_i;

@@ -33,8 +33,8 @@ class PairGranCgm : public LIGGGHTS::PairStyles::IGranularPairStyle, protected L
   const LAMMPS_NS::PairGran* parent() const { return parent_; }
   TangentialModel tangential() const { return settings_.tangential; }
   const GrainContactTable& contacts() const { return contacts_; }
-  // Energy of the normal springs, J; a pair across ranks counts half on each. Positions of ghosts
-  // must be the present ones.
+  // Energy of the normal springs less that of adhesion, J; a pair across ranks counts half on each.
+  // Positions of ghosts must be the present ones.
   double spring_energy() const;
   // Place of the tangential spring among the history values of a pair; -1: none.
   int history_offset() const { return history_offset_; }

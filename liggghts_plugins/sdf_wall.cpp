@@ -142,8 +142,17 @@ void SdfWall::add_contact(const GrainAtWall& grain, const DistanceSample& wall, 
                            .overlap = gradient * overlap,
                            .relative_velocity = grain.velocity - velocity_at(point),
                            .lever_spin = lever * grain.spin};
-  const ContactCoefficients c = contacts_(grain.type, wall_type_).first_against_fixed(grain.mass);
-  const ContactForce f = contact_force<tangential>(c, state, displacement, step);
+  const GrainContact& contact = contacts_(grain.type, wall_type_);
+  const ContactCoefficients c = contact.first_against_fixed(grain.mass);
+  ContactForce f = contact_force<tangential>(c, state, displacement, step);
+  if (contact.has_surface_forces()) {
+    const RollingPair rolling{.relative_spin = grain.spin - body_.motion.angular_velocity(time_),
+                              .effective_radius = grain.radius,
+                              .inertia = sphere_inertia(grain.mass, grain.radius)};
+    touch.torque +=
+        add_surface_forces(contact.surface_of_first_against_fixed({grain.mass, grain.radius}), n,
+                           rolling, step.duration, f);
+  }
   touch.force += f.force;
   touch.torque += lever * f.moment;
   load.force -= f.force;

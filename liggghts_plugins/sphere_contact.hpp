@@ -5,6 +5,7 @@
 
 #include "liggghts_plugins/contact_law.hpp"
 #include "liggghts_plugins/contact_settings.hpp"
+#include "liggghts_plugins/surface_forces.hpp"
 
 namespace gasgrain::plugins {
 
@@ -55,6 +56,14 @@ inline ContactForce contact_force(const ContactCoefficients& c, const ContactSta
   const double f_n = normal_force(c, s.overlap, s.relative_velocity.dot(s.n));
   const Vec3 f_t = tangential_force<model>(c, f_n, s, displacement, step);
   return {.force = f_n * s.n + f_t, .moment = f_t.cross(s.n)};
+}
+
+// Adds the adhesion to the force of a contact; returns the rolling torque on this grain, N m.
+inline Vec3 add_surface_forces(const SurfaceForces& surface, const Vec3& n, const RollingPair& pair,
+                               double duration, ContactForce& f) {
+  const double load = std::abs(f.force.dot(n));
+  f.force -= surface.adhesion * n;
+  return rolling_torque(surface, load, n, pair, duration);
 }
 
 // Calls `run` with the tangential model as a template argument: run.template operator()<model>().

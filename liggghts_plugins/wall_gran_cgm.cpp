@@ -60,19 +60,27 @@ WallGranCgm::Forces WallGranCgm::forces(const FixWallGran& wall,
       .overlap = overlap,
       .relative_velocity = ConstColumn(atom->v[i]) - ConstColumn(wall_velocity),
       .lever_spin = lever * ConstColumn(atom->omega[i])};
-  const ContactCoefficients c =
-      contacts_(atom->type[i], wall.atom_type_wall()).first_against_fixed(contact.mi);
+  const GrainContact& law = contacts_(atom->type[i], wall.atom_type_wall());
+  const ContactCoefficients c = law.first_against_fixed(contact.mi);
 
   Vec3 displacement = Vec3::Zero();
   Column history(contact.contact_history ? contact.contact_history + history_offset_ : nullptr);
   if (history_offset_ >= 0) displacement = history;
   const bool advance = wall.computeflag() && wall.shearupdate();
   const TangentialStep step{advance ? History::advance : History::keep, update->dt};
-  const ContactForce f = with_tangential_model(settings_.tangential, [&]<TangentialModel model>() {
+  ContactForce f = with_tangential_model(settings_.tangential, [&]<TangentialModel model>() {
     return contact_force<model>(c, state, displacement, step);
   });
   if (history_offset_ >= 0 && advance) history = displacement;
-  return {.force = f.force, .torque = lever * f.moment};
+  Vec3 rolling = Vec3::Zero();
+  if (law.has_surface_forces()) {
+    const GrainSize size{contact.mi, contact.radi};
+    const RollingPair pair{.relative_spin = ConstColumn(atom->omega[i]),
+                           .effective_radius = size.radius,
+                           .inertia = sphere_inertia(size.mass, size.radius)};
+    rolling = add_surface_forces(law.surface_of_first_against_fixed(size), n, pair, update->dt, f);
+  }
+  return {.force = f.force, .torque = lever * f.moment + rolling};
 }
 
 void WallGranCgm::compute_force(FixWallGran* wall, SurfacesIntersectData& contact, bool touching,

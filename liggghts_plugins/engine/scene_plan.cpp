@@ -93,6 +93,7 @@ class Planner {
     StockPairStyle* stock = stock_pair_style(lmp_);
     if (cgm && static_cast<const LAMMPS_NS::Pair*>(cgm->parent()) == pair) {
       plan_.pair = make_cgm_law(*cgm);
+      oppose_if(cgm->contacts().has_surface_forces(), "adhesion or rolling friction");
     } else if (stock && static_cast<const LAMMPS_NS::Pair*>(stock->parent()) == pair) {
       StockLawResult result = make_stock_law(lmp_, *stock);
       for (const std::string& obstacle : result.obstacles) oppose(obstacle);

@@ -119,7 +119,7 @@ soft_particles yes
 region box block {box} units box
 create_box 2 box
 coarsegraining {case.l:g} model_check warn
-neighbor {0.1 * material.diameter:g} bin
+neighbor {0.4 * material.diameter:g} bin
 neigh_modify delay 0 contact_distance_factor 1.01
 {chr(10).join(law.properties(material, case.l))}
 pair_style gran model {law.model()}
