@@ -3,12 +3,16 @@
 // --version are ours.
 #include <mpi.h>
 
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 // LIGGGHTS
 #include <input.h>
@@ -19,6 +23,7 @@
 #include "coupling/fatal_error.hpp"
 #include "coupling/fix_couple_gas.h"
 #include "coupling/shared/error.hpp"
+#include "liggghts_plugins/estimate.hpp"
 #include "liggghts_plugins/register.hpp"
 
 namespace {
@@ -56,6 +61,7 @@ std::string version_text() {
 std::string help_text() {
   std::string text = version_text() +
                      "\nusage: [mpirun -np N] gasgrain -in SCRIPT [options of liggghts]\n"
+                     "       gasgrain estimate SCRIPT [options]   what the script will cost\n"
                      "       gasgrain -h          options and styles of LIGGGHTS\n\n"
                      "Styles added to LIGGGHTS, and where they are described:\n";
   for (const auto& style : gasgrain::plugins::described_styles())
@@ -83,12 +89,50 @@ void print_on_first_rank(const std::string& text) {
   if (rank == 0) std::fputs(text.c_str(), stdout);
 }
 
-void run_script(int argc, char** argv) {
+enum class Task { run, estimate };
+
+// Where the gas of an estimate writes; removed at its end.
+std::string scratch_directory() {
+  int process = static_cast<int>(getpid());
+  MPI_Bcast(&process, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  return (std::filesystem::temp_directory_path() / ("gasgrain-estimate-" + std::to_string(process)))
+      .string();
+}
+
+LAMMPS_NS::Fix* create_gas_of_estimate(LAMMPS* liggghts, int count, char** words) {
+  std::string option = "out", directory = scratch_directory();
+  std::vector<char*> changed;
+  for (int i = 0; i < count; ++i) {
+    if (words[i] == option)
+      ++i;
+    else
+      changed.push_back(words[i]);
+  }
+  changed.push_back(option.data());
+  changed.push_back(directory.data());
+  return new gasgrain::coupling::FixCoupleGas(liggghts, static_cast<int>(changed.size()),
+                                              changed.data());
+}
+
+void estimate(LAMMPS& liggghts) {
+  constexpr double seconds_per_run = 2.0;
+  gasgrain::plugins::prepare_estimate(liggghts, seconds_per_run);
+  gasgrain::plugins::register_fix(liggghts, "couple/gas", create_gas_of_estimate);
+  liggghts.input->file();
+  print_on_first_rank(gasgrain::plugins::estimate_text(liggghts));
+  MPI_Barrier(MPI_COMM_WORLD);
+  std::filesystem::remove_all(scratch_directory());
+}
+
+void run_script(int argc, char** argv, Task task) {
   gasgrain::coupling::FatalErrors errors(MPI_COMM_WORLD);
   auto* liggghts = new LAMMPS(argc, argv, MPI_COMM_WORLD);
   try {
     register_all_styles(*liggghts);
-    liggghts->input->file();
+    if (task == Task::estimate)
+      estimate(*liggghts);
+    else
+      liggghts->input->file();
   } catch (const gasgrain::UserError& error) {
     errors.end_program(error.what(), liggghts->logfile);
   } catch (const std::exception& error) {
@@ -100,6 +144,20 @@ void run_script(int argc, char** argv) {
 
 }  // namespace
 
+// `gasgrain estimate SCRIPT ...` as a silent run of the script.
+void estimate_script(int argc, char** argv) {
+  if (argc < 3) {
+    print_on_first_rank("usage: gasgrain estimate SCRIPT [options of liggghts]\n");
+    return;
+  }
+  std::vector<std::string> words = {argv[0],     "-in",  argv[2], "-screen",
+                                    "/dev/null", "-log", "none"};
+  words.insert(words.end(), argv + 3, argv + argc);
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  run_script(static_cast<int>(arguments.size()), arguments.data(), Task::estimate);
+}
+
 int main(int argc, char** argv) {
   install_signal_handlers();
   MPI_Init(&argc, &argv);
@@ -108,8 +166,10 @@ int main(int argc, char** argv) {
   } else if (is_alone(argc, argv, "--help")) {
     describe_all_styles();
     print_on_first_rank(help_text());
+  } else if (argc > 1 && std::strcmp(argv[1], "estimate") == 0) {
+    estimate_script(argc, argv);
   } else {
-    run_script(argc, argv);
+    run_script(argc, argv, Task::run);
   }
   MPI_Finalize();
 }

@@ -5,6 +5,7 @@
 #include "liggghts_plugins/coarsegraining.h"
 #include "liggghts_plugins/contact_model_cgm.hpp"
 #include "liggghts_plugins/engine/engine_mode.hpp"
+#include "liggghts_plugins/estimate.hpp"
 #include "liggghts_plugins/fix_wall_sdf.h"
 
 namespace gasgrain::plugins {
@@ -16,6 +17,7 @@ void register_styles(LAMMPS_NS::LAMMPS& lmp) {
   register_command(lmp, "gasgrain_engine", set_engine_mode);
   register_command(lmp, "gasgrain_checkpoint", set_checkpoints);
   register_fix(lmp, "wall/sdf", create_fix<FixWallSdf>);
+  replace_commands_for_estimate(lmp);
   describe_plugin_styles();
 }
 

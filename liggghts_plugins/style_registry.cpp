@@ -38,6 +38,12 @@ void register_fix(LAMMPS_NS::LAMMPS& lmp, const std::string& name, FixCreator cr
   (*(lmp.modify->*private_member(FixMap())))[name] = create;
 }
 
+FixCreator fix_creator(LAMMPS_NS::LAMMPS& lmp, const std::string& name) {
+  const auto& creators = *(lmp.modify->*private_member(FixMap()));
+  const auto found = creators.find(name);
+  return found == creators.end() ? nullptr : found->second;
+}
+
 void register_command(LAMMPS_NS::LAMMPS& lmp, const std::string& name, CommandCreator create) {
   (*(lmp.input->*private_member(CommandMap())))[name] = create;
 }

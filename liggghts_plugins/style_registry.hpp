@@ -23,6 +23,8 @@ struct StyleDescription {
 
 // Makes `fix ID group NAME ...` known to this LIGGGHTS instance. Call again after a `clear`.
 void register_fix(LAMMPS_NS::LAMMPS& lmp, const std::string& name, FixCreator create);
+// Who creates `fix ID group NAME`, or nullptr.
+FixCreator fix_creator(LAMMPS_NS::LAMMPS& lmp, const std::string& name);
 // Makes the command NAME known; replaces a stock command of that name.
 void register_command(LAMMPS_NS::LAMMPS& lmp, const std::string& name, CommandCreator create);
 
