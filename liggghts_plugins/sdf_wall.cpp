@@ -149,9 +149,11 @@ void SdfWall::add_contact(const GrainAtWall& grain, const DistanceSample& wall, 
     const RollingPair rolling{.relative_spin = grain.spin - body_.motion.angular_velocity(time_),
                               .effective_radius = grain.radius,
                               .inertia = sphere_inertia(grain.mass, grain.radius)};
-    touch.torque +=
+    const Vec3 torque =
         add_surface_forces(contact.surface_of_first_against_fixed({grain.mass, grain.radius}), n,
                            rolling, step.duration, f);
+    touch.torque += torque;
+    load.torque -= torque;
   }
   touch.force += f.force;
   touch.torque += lever * f.moment;
