@@ -54,6 +54,18 @@ def start_gasgrain(directory, script, ranks, variables):
                             start_new_session=True)
 
 
+def run_gasgrain(directory, script, ranks, variables):
+    """Runs `script` in `directory` to its end; fails, with the exit code, when gasgrain does."""
+    process = start_gasgrain(directory, script, ranks, variables)
+    try:
+        code = process.wait()
+    except KeyboardInterrupt:
+        ask_to_end(process)
+        raise
+    if code != 0:
+        fail(f"gasgrain ended with exit code {code}; see {directory}/log.liggghts")
+
+
 def ask_to_end(process):
     """Asks the ranks that `process` (mpirun) has started here for a checkpoint and their end.
 
@@ -140,3 +152,26 @@ def read_summary(directory):
     """summary.json as a dictionary name -> quantity."""
     summary = read_json(pathlib.Path(directory) / "summary.json")
     return {quantity["name"]: quantity for quantity in summary["quantities"]}
+
+
+def quantity(name, value, unit, **more):
+    """One entry of summary.json; `more`: reference, tolerance (relative), source."""
+    return {"name": name, "value": float(value), "unit": unit,
+            **{"reference": None, "tolerance": None, "source": "", **more}}
+
+
+def write_summary(directory, case, quantities):
+    """summary.json of an example that measures by itself; returns name -> quantity."""
+    write_json(pathlib.Path(directory) / "summary.json", {"case": case, "quantities": quantities})
+    return {entry["name"]: entry for entry in quantities}
+
+
+def print_quantities(quantities):
+    """A table of what was measured against its references."""
+    print(f"\n{'quantity':<30}{'here':>12}{'reference':>12}{'deviation':>11}")
+    for entry in quantities.values():
+        line = f"{entry['name'] + ' / ' + entry['unit']:<30}{entry['value']:>12.4g}"
+        if entry["reference"]:
+            deviation = 100 * (entry["value"] / entry["reference"] - 1)
+            line += f"{entry['reference']:>12.4g}{deviation:>+9.1f} %  {entry['source']}"
+        print(line)

@@ -36,6 +36,17 @@ bool has_normal_of(const NearSurfaces& walls, const Vec3& gradient) {
   return false;
 }
 
+bool has_unit_gradient(const DistanceSample& sample) {
+  return std::abs(sample.gradient.norm() - 1.0) <= kink;
+}
+
+// A sampled field of continuous gradient that has but one surface within reach.
+bool is_far_from_kinks(const SignedDistance& shape, const DistanceSample& nearest) {
+  const auto* field = dynamic_cast<const SampledDistance*>(&shape);
+  return field && field->data().interpolation == Interpolation::quadratic &&
+         has_unit_gradient(nearest);
+}
+
 // Replaces one with the same normal if nearer, else adds.
 void add_distinct(const DistanceSample& sample, int from, NearSurfaces& found) {
   for (int n = from; n < found.count; ++n) {
@@ -57,6 +68,10 @@ NearSurfaces ball_contacts(const SignedDistance& shape, const DistanceSample& ne
     result.add(nearest);
     return result;
   }
+  if (is_far_from_kinks(shape, nearest)) {  // known without a second look
+    if (nearest.distance < radius) result.add(nearest);
+    return result;
+  }
   NearSurfaces all;
   shape.add_near_surfaces(x, radius, all);
   for (int n = 0; n < all.count; ++n)
@@ -71,8 +86,7 @@ NearSurfaces ball_contacts(const SignedDistance& shape, const DistanceSample& ne
 void SampledDistance::add_near_surfaces(const Vec3& x, double reach, NearSurfaces& found) const {
   const DistanceSample nearest = sample(x);
   if (std::abs(nearest.distance) >= reach + data_.spacing) return;
-  const bool at_kink =
-      std::abs(nearest.gradient.norm() - 1.0) > kink || kink_between_cells(x, nearest);
+  const bool at_kink = !has_unit_gradient(nearest) || kink_between_cells(x, nearest);
   const NearSurfaces walls = at_kink ? walls_around(x) : NearSurfaces{};
   if (walls.count == 0 && std::abs(nearest.distance) < reach) found.add(nearest);
   for (int n = 0; n < walls.count; ++n)
