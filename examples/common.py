@@ -54,18 +54,6 @@ def start_gasgrain(directory, script, ranks, variables):
                             start_new_session=True)
 
 
-def run_gasgrain(directory, script, ranks, variables):
-    """Runs `script` in `directory` to its end; fails, with the exit code, when gasgrain does."""
-    process = start_gasgrain(directory, script, ranks, variables)
-    try:
-        code = process.wait()
-    except KeyboardInterrupt:
-        ask_to_end(process)
-        raise
-    if code != 0:
-        fail(f"gasgrain ended with exit code {code}; see {directory}/log.liggghts")
-
-
 def ask_to_end(process):
     """Asks the ranks that `process` (mpirun) has started here for a checkpoint and their end.
 
