@@ -89,7 +89,7 @@ BED = Scene(
                 "granular_temperature": ("m2/s2", "relative")})
 
 
-# ---- die filling: die of 5 x 4 mm, 4 mm deep, below a shoe of 12 mm; the grains' gate opens at once
+# ---- die filling: die of 5 x 4 mm, 4 mm deep, below a shoe of 12 mm; the gate opens at once
 
 DIE_LOWER, DIE_TOP = (0, 0, -0.004), (0.012, 0.004, 0.02)
 DIE_LEFT, DIE_RIGHT = 0.0035, 0.0085

@@ -1,7 +1,7 @@
 """Contact laws under comparison, as lines of a LIGGGHTS script.
 
-Every script says `coarsegraining l model_check warn`, so that grains, skins and the gas see the same
-l. What stock LIGGGHTS makes of its properties under that command is in docs/coarse_graining.md:
+Every script says `coarsegraining l model_check warn`, so that grains, skins and the gas see the
+same l. What stock LIGGGHTS makes of its properties under that command is in docs/coarse_graining.md:
 kn x l, gamman_abs x l^2, kt and gammat_abs unscaled, Young's modulus unscaled.
 
     cgm-n1, cgm-n2, cgm-n3   ours with stiffness exponent n, fused engine, SDF walls
@@ -53,7 +53,8 @@ class Material:
 
 
 def pair_property(name, pair, wall):
-    return f"fix {name} all property/global {name} peratomtypepair 2 {pair:.10g}" + 3 * f" {wall:.10g}"
+    return (f"fix {name} all property/global {name} peratomtypepair 2 {pair:.10g}"
+            + 3 * f" {wall:.10g}")
 
 
 def type_property(name, value):
@@ -78,7 +79,8 @@ class Law:
                 type_property("youngsModulus", material.youngs_modulus()),
                 type_property("poissonsRatio", material.poisson_ratio),
                 pair_property("coefficientRestitution", e, e),
-                f"fix V all property/global characteristicVelocity scalar {material.impact_speed:.10g}"]
+                "fix V all property/global characteristicVelocity scalar "
+                f"{material.impact_speed:.10g}"]
         # stock multiplies kn by l and gamman_abs by l^2 on its own
         k, pair, wall = material.spring, material.damping(material.mass / 2), material.damping(
             material.mass)

@@ -118,7 +118,10 @@ def section(scene, results, pictures):
              f"{len(rows)} of {len(wanted)} runs are stored."]
     if len(truth) < 2:
         return [*lines, "The originals are missing: nothing to compare with yet.", ""]
-    lines += ["", truth_line(truth, scene), "", *law_table(groups, truth, scene), ""]
+    lines += ["", truth_line(truth, scene), ""]
+    if scene.note:
+        lines += [scene.note, ""]
+    lines += [*law_table(groups, truth, scene), ""]
     if len(truth) < len(SEEDS):
         lines += [f"Only {len(truth)} of {len(SEEDS)} seeds of the originals: bars are wide.", ""]
     factors = factor_table(groups, truth, scene)

@@ -41,8 +41,8 @@ def cell_numbers(places, edge):
 def lacey_index(marked, places, edge):
     """Mixing of marked and other grains, 0 apart to 1 at random (Lacey 1954), cells of this edge.
 
-    (S0^2 - S^2)/(S0^2 - SR^2) with S0^2 = p(1-p) and SR^2 = p(1-p)/n of each cell, cells weighted by
-    their n grains.
+    (S0^2 - S^2)/(S0^2 - SR^2) with S0^2 = p(1-p) and SR^2 = p(1-p)/n of each cell, cells weighted
+    by their n grains.
     """
     cell = cell_numbers(places, edge)
     n = numpy.bincount(cell)
@@ -77,7 +77,7 @@ def first_crossing(times, values, level):
 
 
 def mean_crossing_frequency(times, values, smoothing):
-    """Half the number of crossings of the mean per time, Hz, after a running mean of `smoothing` s."""
+    """Half the number of crossings of the mean per time, Hz; `smoothing`: of a running mean, s."""
     width = max(1, round(smoothing / numpy.diff(times).mean()))
     smooth = numpy.convolve(values - values.mean(), numpy.ones(width) / width, mode="valid")
     return (smooth[1:] * smooth[:-1] < 0).sum() / 2 / (times[-1] - times[0])

@@ -75,6 +75,7 @@ class Scene:
     sampled_wall: str = ""  # of the factor `spacing`
     margin: float = 0.0  # of the box beyond lower and upper, m
     loses_grains: bool = False  # they fall out of the box
+    note: str = ""  # of the page, below the originals
 
     def spring_material(self, case):
         if case.factor != "spring":
@@ -153,7 +154,10 @@ run {round(self.time / self.frame) * per_frame}
                 margin = 8 * spacing
                 lower = [a - margin for a in self.lower]
                 upper = [b + margin for b in self.upper]
+                # wider than a grain's radius and than two cells of the gas
+                band = max(8 * spacing, 0.75 * case.l * self.material.diameter, 2.5 * self.cell)
                 text += f"spacing = {spacing:g}\nlower = {lower}\nupper = {upper}\ncut = true\n"
+                text += f"band = {band:g}\n"
         if not self.gas:
             return text
         cell = float(case.value) if case.factor == "cell" else self.cell
