@@ -1,5 +1,5 @@
-// Where cells are small or the gas is viscous, nu dt/h^2 <= 1/12 rules the step. With the stress at
-// the end of the step it does not:
+// Where cells are small or the gas is viscous, nu dt/h^2 <= 0.9/12 rules the step. With the stress
+// at the end of the step it does not:
 //
 //   eps rho (v - u_n)/dt = [ convection ]_AB2 + c1 S(v) + c0 S(u_n) + c-1 S(u_n-1) + eps rho g
 //                          + B (w - v) - eps grad p_old,       S(v) = div(eps tau(v)),
