@@ -65,12 +65,13 @@ CoupledRun::CoupledRun(const Case& settings, const std::string& directory, DemHo
                                                     : std::numeric_limits<double>::infinity()),
       progress_schedule_(progress_interval(case_.options, case_.gas.output)) {}
 
-void CoupledRun::begin(std::span<Vec3> forces) {
+void CoupledRun::begin(std::span<Vec3> forces, std::span<double> coefficients) {
   begun_ = true;
   open_files({});
   watch_bed();
   label_grains();
   row_.exchange = coupling_.begin(forces, host_.records(), host_.time());
+  if (drag_follows_grains()) coupling_.coefficients_of(coefficients);
   monitor_->observe(coupling_.void_fraction());
   held_force_ = row_.exchange.force_on_grains;
   row_.grains = host_.totals();
@@ -134,10 +135,15 @@ void CoupledRun::continue_run() {
 }
 
 // Velocity Verlet gives half of a step's force in that step and half in the next one.
-void CoupledRun::force_applied(double dem_step) {
-  audit_.add_received(0.5 * dem_step * (applied_force_ + held_force_));
-  applied_force_ = held_force_;
-  traffic_.force_applied(dem_step);
+void CoupledRun::force_applied(double dem_step, const Vec3& force_sum) {
+  if (drag_follows_grains()) {
+    received_sum_ += 0.5 * dem_step * (applied_sum_ + force_sum);
+    applied_sum_ = force_sum;
+  } else {
+    audit_.add_received(0.5 * dem_step * (applied_force_ + held_force_));
+    applied_force_ = held_force_;
+    traffic_.force_applied(dem_step);
+  }
   elapsed_ += dem_step;
 }
 
@@ -145,10 +151,13 @@ bool CoupledRun::step_finished() {
   return ++steps_since_exchange_ >= interval_.dem_steps;
 }
 
-void CoupledRun::exchange(std::span<Vec3> forces) {
+void CoupledRun::exchange(std::span<Vec3> forces, std::span<double> coefficients) {
   stop_dem_clock();
   energy_.add_gas_work(0.5 * elapsed_ * (gas_power_ + host_.gas_power()));
-  row_.exchange = coupling_.exchange(forces, host_.records(), elapsed_);
+  std::vector<GrainRecord> grains = host_.records();
+  host_.add_carried(grains, elapsed_, given_interval());
+  row_.exchange = coupling_.exchange(forces, grains, elapsed_);
+  if (drag_follows_grains()) coupling_.coefficients_of(coefficients);
   held_force_ = row_.exchange.force_on_grains;
   audit_.add_exchange(row_.exchange);
   traffic_.exchanged();
@@ -188,7 +197,8 @@ void CoupledRun::grain_appeared(GrainPassage passage, GrainTraffic::Moment momen
 void CoupledRun::grain_left(GrainPassage passage, const Vec3& held, GrainTraffic::Moment moment,
                             double dem_step) {
   passage.time = time_of_passage(moment, dem_step);
-  traffic_.left(passage, held, moment);
+  // sums of forces that follow the grains know who is there
+  traffic_.left(passage, drag_follows_grains() ? Vec3(Vec3::Zero()) : held, moment);
 }
 
 void CoupledRun::observe_bed(const ExchangeReport& report) {
@@ -213,6 +223,9 @@ void CoupledRun::collect_from_host() {
 void CoupledRun::audit() {
   const int axis = monitor_->vertical().axis;
   collect_from_host();
+  Vec3 received = std::exchange(received_sum_, Vec3::Zero());
+  MPI_Allreduce(MPI_IN_PLACE, received.data(), 3, MPI_DOUBLE, MPI_SUM, communicator_);
+  audit_.add_received(received);
   row_.grains = host_.totals();
   const TrafficSums traffic = traffic_.take(communicator_);
   row_.balance = audit_.close(row_.grains, traffic, wall_impulse_, host_.gravity());
@@ -317,12 +330,30 @@ void CoupledRun::restore(const std::string& path) {
   host_.print(text("Gas continues at t = %.6g s from %s\n", coupling_.gas().time(), path.c_str()));
 }
 
+// A run goes on in the gas it began with.
+void CoupledRun::check_gas(cfd::StateArchive& archive) const {
+  const auto check = [&](const char* name, double stated) {
+    double stored = stated;
+    archive.number(std::string("gas_") + name, stored);
+    if (stored == stated) return;
+    throw UserError(
+        text("the run that is to be continued had gas.%s = %.10g, but the case file "
+             "states %.10g; state the same, or start anew",
+             name, stored, stated));
+  };
+  check("density", case_.gas.gas.density);
+  check("viscosity", case_.gas.gas.viscosity);
+}
+
 void CoupledRun::visit_state(cfd::StateArchive& archive) {
+  check_gas(archive);
   coupling_.visit_state(archive);
   audit_.visit_state(archive);
   energy_.visit_state(archive);
   traffic_.visit_state(archive);
   archive.partial_sums("gas_power", {&gas_power_, 1});
+  archive.partial_sums("received_sum", {received_sum_.data(), 3});
+  archive.number("given_interval", row_.exchange.interval);
   monitors_.visit_state(archive);
   statistics_.visit_state(archive);
   archive.number_of("exchange_dem_steps", interval_.dem_steps);

@@ -4,7 +4,9 @@
 // Protocol, all calls collective:
 //   begin()             once, in the set-up of the first run
 //   continue_run()      in the set-up of every later run
-//   force_applied(dt)   in every DEM step, after the held forces were added to the grains
+//   force_applied(dt)   in every DEM step, after the held forces were added to the grains; with
+//                       coupling.drag_update = "dem-step" also the sum of forces on this rank's
+//                       grains, and set_up(sum) after the set-up of a run
 //   step_finished()     at the end of every DEM step; true when an exchange is due
 //   exchange()          when step_finished() said so
 //   grain_appeared()    for every grain of this rank that is inserted, before its first force
@@ -51,14 +53,20 @@ class CoupledRun {
   CoupledRun(const std::string& case_file, const std::string& directory, DemHost& host,
              MPI_Comm communicator);
 
-  void begin(std::span<Vec3> forces);
+  void begin(std::span<Vec3> forces, std::span<double> coefficients);
   bool begun() const { return begun_; }
   void continue_run();
-  void force_applied(double dem_step);
+  void set_up(const Vec3& force_sum) { applied_sum_ = force_sum; }
+  void force_applied(double dem_step, const Vec3& force_sum);
   bool step_finished();
   // Whether the next step_finished() will be true.
   bool exchange_due() const { return steps_since_exchange_ + 1 >= interval_.dem_steps; }
-  void exchange(std::span<Vec3> forces);
+  // `coefficients` [kg/s] are written for drag_follows_grains() only; the drag in `forces` is then
+  // that at the grains' present velocities.
+  void exchange(std::span<Vec3> forces, std::span<double> coefficients);
+  bool drag_follows_grains() const { return case_.options.drag_update == DragUpdate::dem_step; }
+  // Of the last exchange, s: over this the gas gave the forces of the grains.
+  double given_interval() const { return row_.exchange.interval; }
   // `passage`.time is set here; `held` is the gas force on the grain, N.
   void grain_appeared(GrainPassage passage, GrainTraffic::Moment moment, double dem_step);
   void grain_left(GrainPassage passage, const Vec3& held, GrainTraffic::Moment moment,
@@ -88,6 +96,7 @@ class CoupledRun {
   CoupledRun(const Case& settings, const std::string& directory, DemHost& host,
              MPI_Comm communicator);
   void visit_state(cfd::StateArchive& archive);
+  void check_gas(cfd::StateArchive& archive) const;
   void watch_bed();
   void open_files(std::optional<double> continue_from);
   void label_grains();
@@ -126,11 +135,13 @@ class CoupledRun {
   double elapsed_ = 0.0;               // s since the last exchange
   Vec3 held_force_ = Vec3::Zero();     // N, sum over the grains
   Vec3 applied_force_ = Vec3::Zero();  // the one in the integrator's present force
-  double gas_power_ = 0.0;             // W, at the last exchange on this rank's grains then
-  Vec3 wall_impulse_ = Vec3::Zero();   // N s, of walls on grains, collected since the last audit
-  plugins::LargestOverlap overlap_;    // likewise
-  double last_frame_time_ = -1.0;      // s
-  double clock_ = 0.0;                 // wall time at the start of the part under way
+  // The same on this rank when the drag follows the grains, and its impulse since the last audit.
+  Vec3 applied_sum_ = Vec3::Zero(), received_sum_ = Vec3::Zero();
+  double gas_power_ = 0.0;            // W, at the last exchange on this rank's grains then
+  Vec3 wall_impulse_ = Vec3::Zero();  // N s, of walls on grains, collected since the last audit
+  plugins::LargestOverlap overlap_;   // likewise
+  double last_frame_time_ = -1.0;     // s
+  double clock_ = 0.0;                // wall time at the start of the part under way
   double run_start_ = 0.0;
 };
 

@@ -37,6 +37,7 @@ CouplingInterval choose_interval(const IntervalLimits& limits, double dem_step, 
                     dem_step);
   }
   return shortest({{limits.grain_motion, "grain motion"},
+                   {limits.wall_motion, "wall motion"},
                    {accurate_share * limits.exchange, "drag"},
                    {limits.gas, "gas stability"}},
                   dem_step);

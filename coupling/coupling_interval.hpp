@@ -9,6 +9,7 @@ namespace gasgrain::coupling {
 struct IntervalLimits {
   double grain_motion;  // 0.1 d / largest grain speed: the void fraction follows the grains
   double exchange;      // 2 eps^2 m / B, smallest over the grains: the held drag oscillates beyond
+  double wall_motion;   // 0.1 of the least spacing / largest speed of a wall: likewise
   double gas;           // largest stable step of the gas solver
 };
 
@@ -17,7 +18,7 @@ struct CouplingInterval {
   std::string limited_by;  // which limit decided, for the user
 };
 
-// Default: the least of the grain-motion limit, 5 % of the exchange limit and the gas limit. A
+// Default: the least of the two motion limits, 5 % of the exchange limit and the gas limit. A
 // `requested` interval > 0 [s] takes the place of all but half the exchange limit; the gas then
 // subdivides it. The interval is a whole number of DEM steps, at least one.
 CouplingInterval choose_interval(const IntervalLimits& limits, double dem_step, double requested);

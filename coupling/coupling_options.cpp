@@ -17,6 +17,9 @@ CouplingOptions read_coupling_options(const ConfigTable& table, const cfd::GasCa
   options.feedback = table.choice_or("feedback", "two-way", {"two-way", "one-way"}) == "two-way"
                          ? Feedback::two_way
                          : Feedback::one_way;
+  options.drag_update = table.choice_or("drag_update", "held", {"held", "dem-step"}) == "held"
+                            ? DragUpdate::held
+                            : DragUpdate::dem_step;
   options.exchange_interval = table.number_or("exchange_interval", 0.0, Range::positive());
   options.kernel_width = table.number_or("kernel_width", 0.0, Range::positive());
   options.average_from = table.number_or("average_from", 0.0, Range::non_negative());

@@ -16,10 +16,16 @@ enum class Feedback {
   one_way,  // the gas does not notice the grains: void fraction 1, no drag on the gas
 };
 
+enum class DragUpdate {
+  held,      // the drag on a grain is constant between exchanges
+  dem_step,  // it follows the grain's velocity in every DEM step
+};
+
 struct CouplingOptions {
   std::string drag_name = "gidaspow";
   DragOptions drag;
   Feedback feedback = Feedback::two_way;
+  DragUpdate drag_update = DragUpdate::held;
   double exchange_interval = 0.0;  // s, requested interval between exchanges; 0 = from the limits
   double kernel_width = 0.0;  // m, standard deviation of the deposition kernel; 0 = from dx and d
   double average_from = 0.0;  // s of gas time: start of the time means

@@ -44,7 +44,11 @@ class DemHost {
   virtual std::vector<std::string> unmeasured_walls() const = 0;
 
   virtual std::vector<GrainRecord> records() const = 0;  // coupled grains of this rank
-  virtual GrainState grain_state() const = 0;            // the same grains
+  // Sets what the grains carry. They hold their forces since `elapsed` [s]; for these forces the
+  // gas gave over `given` [s].
+  virtual void add_carried(std::vector<GrainRecord>& grains, double elapsed,
+                           double given) const = 0;
+  virtual GrainState grain_state() const = 0;  // the same grains
   // One number per grain that moves with it: 0 until it is set.
   virtual void set_labels(const std::vector<double>& labels) = 0;  // in the order of records()
   virtual std::vector<double> labels() const = 0;

@@ -13,7 +13,7 @@ namespace gasgrain::coupling {
 
 namespace {
 
-constexpr double motion_share = 0.1;  // of a diameter per interval
+constexpr double motion_share = 0.1;  // of a diameter or spacing per interval
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Sums over all ranks: add() before, reduce() once, then take() in the same order.
@@ -48,12 +48,24 @@ void add(cfd::MomentumBudget& sum, const cfd::MomentumBudget& budget) {
   for (const MomentumRow row : momentum_rows) sum.*row += budget.*row;
 }
 
+// Of this rank's walls.
+double GasCoupling::wall_motion_limit() const {
+  if (!gas_.has_motion()) return infinity;
+  double fastest = 0.0;
+  for (const cfd::Field& velocity : gas_.walls().wall_velocity) {
+    for (std::size_t n = 0; n < velocity.count(); ++n)
+      fastest = std::max(fastest, std::abs(velocity[static_cast<std::ptrdiff_t>(n)]));
+  }
+  const double least = gas_.decomposition().grid().spacing().minCoeff();
+  return fastest > 0 ? motion_share * least / fastest : infinity;
+}
+
 void GasCoupling::measure(double interval) {
   const std::vector<GrainRecord>& grains = transfer_.received();
   const MPI_Comm communicator = gas_.decomposition().communicator();
   double inside = 0, volume = 0, mass = 0, drag_size = 0, pressure_size = 0;
-  Vec3 drag = Vec3::Zero(), pressure = Vec3::Zero();
-  IntervalLimits limits{infinity, infinity, infinity};
+  Vec3 drag = Vec3::Zero(), carried = Vec3::Zero(), pressure = Vec3::Zero();
+  IntervalLimits limits{infinity, infinity, wall_motion_limit(), infinity};
   for (std::size_t n = 0; n < grains.size(); ++n) {
     if (!deposition_.takes_part(n)) continue;
     const GrainRecord& grain = grains[n];
@@ -62,6 +74,7 @@ void GasCoupling::measure(double interval) {
     mass += grain.mass;
     drag += drag_[n];
     pressure += pressure_[n];
+    carried += grain.carried;
     drag_size += drag_[n].norm();
     pressure_size += pressure_[n].norm();
     const double speed = grain.velocity.norm();
@@ -85,9 +98,9 @@ void GasCoupling::measure(double interval) {
                        pressure_size}) {
     sums.add(value);
   }
-  for (const Vec3& value : {drag, pressure, report_.drag_on_walls}) sums.add(value);
+  for (const Vec3& value : {drag, pressure, carried, report_.drag_on_walls}) sums.add(value);
   sums.reduce(MPI_SUM, communicator);
-  for (double value : {limits.grain_motion, limits.exchange}) least.add(value);
+  for (double value : {limits.grain_motion, limits.exchange, limits.wall_motion}) least.add(value);
   least.reduce(MPI_MIN, communicator);
 
   report_.grains_inside = std::lround(sums.take());
@@ -100,18 +113,21 @@ void GasCoupling::measure(double interval) {
   pressure_size = sums.take();
   drag = sums.take_vector();
   pressure = sums.take_vector();
+  carried = sums.take_vector();
   report_.drag_on_walls = sums.take_vector();
   report_.force_on_grains = drag + pressure;
   report_.limits.grain_motion = least.take();
   report_.limits.exchange = least.take();
+  report_.limits.wall_motion = least.take();
   report_.limits.gas = gas_.largest_stable_step();
   if (options_.feedback == Feedback::one_way) return;
   report_.solid_volume_residual =
       relative(std::abs(deposited - report_.solid_volume), report_.solid_volume);
   if (interval <= 0) return;
   const cfd::MomentumBudget& gas = report_.gas_momentum;
-  report_.third_law_residual =
-      relative((interval * drag + gas.drag + report_.drag_on_walls).norm(), interval * drag_size);
+  report_.carried = carried;
+  report_.third_law_residual = relative(
+      (interval * drag + carried + gas.drag + report_.drag_on_walls).norm(), interval * drag_size);
   report_.pressure_residual =
       relative((interval * pressure - gas.pressure_on_grains).norm(), interval * pressure_size);
 }

@@ -43,10 +43,11 @@ struct ExchangeReport {
   double interval = 0.0;                // s
   cfd::MomentumBudget gas_momentum;     // N s, over the interval
   Vec3 force_on_grains = Vec3::Zero();  // N, sum of the new forces
+  Vec3 carried = Vec3::Zero();          // N s: sum of GrainRecord::carried, given back to the gas
   Vec3 drag_on_walls = Vec3::Zero();    // N s: drag in directions in which a cell has no free face
-  double third_law_residual = 0.0;      // |impulse of drag on grains + on gas + on walls| over the
-                                        // sum of magnitudes of the grains' impulses
-  double pressure_residual = 0.0;       // the same for -V grad p
+  double third_law_residual = 0.0;      // |impulse of drag on grains + carried + on gas + on walls|
+                                    // over the sum of magnitudes of the grains' impulses
+  double pressure_residual = 0.0;  // the same for -V grad p
   IntervalLimits limits{};
   double gas_seconds = 0.0;  // wall time in the gas solver on this rank
 };

@@ -9,6 +9,7 @@
 #include <update.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -68,6 +69,7 @@ FixCoupleGas::FixCoupleGas(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char
   run_ = std::make_unique<CoupledRun>(given.case_file, given.directory, host, communicator_);
   size_vector += static_cast<int>(run_->monitors().names().size());
   if (run_->monitors().wants_labels()) ++values_per_grain_;
+  if (run_->drag_follows_grains()) values_per_grain_ += 7;
   state_directory_ = run_->directory().empty() ? "." : run_->directory();
   grow_arrays(atom->nmax);
   atom->add_callback(0);
@@ -101,10 +103,11 @@ void FixCoupleGas::setup(int) {
     run_->continue_run();
   } else {
     std::vector<Vec3> forces(records().size(), Vec3::Zero());
-    run_->begin(forces);
-    hold(forces);
+    std::vector<double> coefficients(forces.size(), 0.0);
+    run_->begin(forces, coefficients);
+    hold(forces, coefficients);
   }
-  add_held_forces();
+  run_->set_up(add_held_forces());
 }
 
 void FixCoupleGas::setup_pre_exchange() {
@@ -141,19 +144,23 @@ void FixCoupleGas::tell_who_leaves(GrainTraffic::Moment moment) {
 }
 
 void FixCoupleGas::post_force(int) {
-  add_held_forces();
-  held_forces_applied();
+  held_forces_applied(add_held_forces());
 }
 
-void FixCoupleGas::held_forces_applied() {
-  run_->force_applied(update->dt);
+plugins::HeldForces FixCoupleGas::held_forces() const {
+  return {held_.data(), coefficients_.empty() ? nullptr : coefficients_.data()};
+}
+
+void FixCoupleGas::held_forces_applied(const Vec3& sum) {
+  run_->force_applied(update->dt, sum);
 }
 
 void FixCoupleGas::end_of_step() {
   if (!run_->step_finished()) return;
   std::vector<Vec3> forces(atom->nlocal, Vec3::Zero());
-  run_->exchange(forces);
-  hold(forces);
+  std::vector<double> coefficients(forces.size(), 0.0);
+  run_->exchange(forces, coefficients);
+  hold(forces, coefficients);
 }
 
 void FixCoupleGas::post_run() {
@@ -237,33 +244,88 @@ void FixCoupleGas::for_each_grain(Visit&& visit) const {
   }
 }
 
-void FixCoupleGas::hold(const std::vector<Vec3>& forces) {
+void FixCoupleGas::hold(const std::vector<Vec3>& forces, const std::vector<double>& coefficients) {
   std::fill(held_.begin(), held_.end(), Vec3::Zero());
   std::size_t n = 0;
-  for_each_grain([&](int i) { held_[i] = forces[n++]; });
+  for_each_grain([&](int i) {
+    held_[i] = forces[n];
+    if (!coefficients_.empty()) {
+      coefficients_[i] = coefficients[n];
+      given_[i] = run_->given_interval() * forces[n];
+      positions_[i] = column(atom->x[i]);
+      held_[i] += coefficients[n] * column(atom->v[i]);
+    }
+    ++n;
+  });
 }
 
-void FixCoupleGas::add_held_forces() {
+// Returns their sum over this rank's grains, N.
+Vec3 FixCoupleGas::add_held_forces() {
+  Vec3 sum = Vec3::Zero();
+  const plugins::HeldForces held = held_forces();
   for_each_grain([&](int i) {
-    for (int d = 0; d < 3; ++d) atom->f[i][d] += held_[i][d];
+    const Vec3 force = held.on(i, column(atom->v[i]));
+    sum += force;
+    for (int d = 0; d < 3; ++d) atom->f[i][d] += force[d];
+  });
+  return sum;
+}
+
+// The forces of the steps of an interval, computed with the velocities by which the grains moved,
+// add up to held T - B (x - x0). Nothing is carried after the first exchange, when the gas had
+// given nothing.
+void FixCoupleGas::add_carried(std::vector<GrainRecord>& grains, double elapsed,
+                               double given) const {
+  if (given <= 0) return;
+  std::size_t n = 0;
+  for_each_grain([&](int i) {
+    Vec3& carried = grains[n++].carried;
+    if (coefficients_.empty()) {
+      carried = (elapsed - given) * held_[i];
+    } else if (coefficients_[i] > 0) {
+      Vec3 path = column(atom->x[i]) - positions_[i];
+      domain->minimum_image(path[0], path[1], path[2]);
+      carried = elapsed * held_[i] - coefficients_[i] * path - given_[i];
+    }
   });
 }
 
 GasForce FixCoupleGas::gas_force(int local_index) const {
-  return {.held = held_[local_index]};
+  if (coefficients_.empty()) return {.held = held_[local_index]};
+  const double b = coefficients_[local_index];
+  return {.held = b > 0 ? Vec3(Vec3::Zero()) : held_[local_index],
+          .coefficient = b,
+          .reference_velocity = b > 0 ? Vec3(held_[local_index] / b) : Vec3(Vec3::Zero())};
 }
 
 void FixCoupleGas::grow_arrays(int count) {
   held_.resize(count, Vec3::Zero());
   if (run_->monitors().wants_labels()) labels_.resize(count, 0.0);
+  if (!run_->drag_follows_grains()) return;
+  coefficients_.resize(count, 0.0);
+  given_.resize(count, Vec3::Zero());
+  positions_.resize(count, Vec3::Zero());
 }
+
+// visit(value) for all that moves with atom i.
+template <class Visit>
+void FixCoupleGas::for_each_value(int i, Visit&& visit) {
+  for (int d = 0; d < 3; ++d) visit(held_[i][d]);
+  if (!labels_.empty()) visit(labels_[i]);
+  if (coefficients_.empty()) return;
+  visit(coefficients_[i]);
+  for (int d = 0; d < 3; ++d) visit(given_[i][d]);
+  for (int d = 0; d < 3; ++d) visit(positions_[i][d]);
+}
+
 void FixCoupleGas::copy_arrays(int from, int to, int) {
-  held_[to] = held_[from];
-  if (!labels_.empty()) labels_[to] = labels_[from];
+  std::array<double, 11> values;  // force, label, drag
+  pack_exchange(from, values.data());
+  unpack_exchange(to, values.data());
 }
+
 void FixCoupleGas::set_arrays(int i) {
-  held_[i].setZero();
-  if (!labels_.empty()) labels_[i] = 0.0;
+  for_each_value(i, [](double& value) { value = 0.0; });
   if (!run_->begun() || !(atom->mask[i] & groupbit)) return;
   const bool in_step = update->whichflag == 1 && update->setupflag == 0;
   run_->grain_appeared(
@@ -272,19 +334,17 @@ void FixCoupleGas::set_arrays(int i) {
 }
 
 int FixCoupleGas::pack_exchange(int i, double* buffer) {
-  for (int d = 0; d < 3; ++d) buffer[d] = held_[i][d];
-  if (!labels_.empty()) buffer[3] = labels_[i];
+  for_each_value(i, [&](double& value) { *buffer++ = value; });
   return values_per_grain_;
 }
 
 int FixCoupleGas::unpack_exchange(int i, double* buffer) {
-  held_[i] = column(buffer);
-  if (!labels_.empty()) labels_[i] = buffer[3];
+  for_each_value(i, [&](double& value) { value = *buffer++; });
   return values_per_grain_;
 }
 
 double FixCoupleGas::memory_usage() {
-  return double(held_.size() * sizeof(Vec3) + labels_.size() * sizeof(double));
+  return double(held_.size()) * values_per_grain_ * sizeof(double);
 }
 
 double FixCoupleGas::time() const {
@@ -365,7 +425,11 @@ std::vector<double> FixCoupleGas::labels() const {
 
 double FixCoupleGas::gas_power() const {
   double power = 0.0;
-  for_each_grain([&](int i) { power += held_[i].dot(column(atom->v[i])); });
+  const plugins::HeldForces held = held_forces();
+  for_each_grain([&](int i) {
+    const Vec3 velocity = column(atom->v[i]);
+    power += held.on(i, velocity).dot(velocity);
+  });
   return power;
 }
 

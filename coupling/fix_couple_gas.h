@@ -63,8 +63,8 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
   int maxsize_restart() override;
 
   GasForce gas_force(int local_index) const override;
-  const Vec3* held_forces() const override { return held_.data(); }
-  void held_forces_applied() override;
+  plugins::HeldForces held_forces() const override;
+  void held_forces_applied(const Vec3& sum) override;
   bool end_of_step_uses_atoms() const override { return run_->exchange_due(); }
 
  private:
@@ -74,6 +74,7 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
   RunProgress progress() const override;
   std::vector<std::string> unmeasured_walls() const override;
   std::vector<GrainRecord> records() const override;
+  void add_carried(std::vector<GrainRecord>& grains, double elapsed, double given) const override;
   GrainState grain_state() const override;
   void set_labels(const std::vector<double>& labels) override;
   std::vector<double> labels() const override;
@@ -89,15 +90,21 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
   void check_host(const std::string& where) const;
   template <class Visit>
   void for_each_grain(Visit&& visit) const;
-  void hold(const std::vector<Vec3>& forces);
-  void add_held_forces();
+  void hold(const std::vector<Vec3>& forces, const std::vector<double>& coefficients);
+  Vec3 add_held_forces();
+  template <class Visit>
+  void for_each_value(int i, Visit&& visit);
 
   MPI_Comm communicator_ = MPI_COMM_NULL;
   std::unique_ptr<CoupledRun> run_;
   std::string state_directory_;  // for states when no checkpoint is under way
   int values_per_grain_ = 3;     // that move with the atom
-  std::vector<Vec3> held_;       // N, per local atom
-  std::vector<double> labels_;   // per local atom, only when a monitor wants them
+  // Per local atom. The gas force is held - coefficient * velocity.
+  std::vector<Vec3> held_;            // N
+  std::vector<double> coefficients_;  // kg/s; empty, as the next two, unless the drag follows
+  std::vector<Vec3> given_;           // N s, what the gas gave for the present forces
+  std::vector<Vec3> positions_;       // m, at the last exchange
+  std::vector<double> labels_;        // per local atom, only when a monitor wants them
 };
 
 }  // namespace gasgrain::coupling

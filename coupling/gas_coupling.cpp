@@ -8,6 +8,10 @@
 //   implicit 6  F = B (u - v) - V grad p with u and grad p gathered by D^T 7  the forces go back
 //   and are held over the next interval
 //
+// What the grains received since the last exchange differs from what the gas gave when the interval
+// changed its length, or when their drag followed their velocities: the difference is carried per
+// grain (GrainRecord::carried) and given back to the gas in 4.
+//
 // D spreads and D^T gathers with one set of weights, and the solver spreads cell values to faces
 // with the shares by which it samples faces at cells. So sum F_drag dt is the momentum that the gas
 // lost, to round-off, whatever the state. Directions in which a cell has no free face (a grid one
@@ -93,7 +97,7 @@ ExchangeReport GasCoupling::begin(std::span<Vec3> forces, std::span<const GrainR
   gas_.accept_void_fraction_as_old();
   gas_.sample_at_cells(velocity_, pressure_gradient_);
   evaluate_drag();
-  deposit_drag();
+  deposit_drag(0.0);
   gather_forces();
   transfer_.return_to_senders(forces, forces_);
   measure(0.0);
@@ -107,7 +111,7 @@ ExchangeReport GasCoupling::exchange(std::span<Vec3> forces, std::span<const Gra
   send_grains_to_gas_ranks(grains);
   deposit_void_fraction();
   evaluate_drag();
-  deposit_drag();
+  deposit_drag(interval);
   advance_gas(interval);
   gather_forces();
   transfer_.return_to_senders(forces, forces_);
@@ -121,6 +125,10 @@ void GasCoupling::move_bodies(double interval) {
   if (!gas_.move_bodies(gas_.time() + interval)) return;
   deposition_.set_walls(gas_.walls());
   find_closed_cells();
+}
+
+void GasCoupling::coefficients_of(std::span<double> grains) const {
+  transfer_.return_to_senders(grains, coefficients_);
 }
 
 void GasCoupling::visit_state(cfd::StateArchive& archive) {
@@ -220,12 +228,14 @@ void GasCoupling::evaluate_drag() {
   }
 }
 
-void GasCoupling::deposit_drag() {
+// In units of B v: what the grains carry is given back over the interval.
+void GasCoupling::deposit_drag(double interval) {
   if (options_.feedback == Feedback::one_way) return;
   const std::vector<GrainRecord>& grains = transfer_.received();
   std::vector<std::array<double, 4>> amounts(grains.size());
   for (std::size_t n = 0; n < grains.size(); ++n) {
-    const Vec3 momentum = coefficients_[n] * grains[n].velocity;
+    Vec3 momentum = coefficients_[n] * grains[n].velocity;
+    if (interval > 0) momentum -= grains[n].carried / interval;
     amounts[n] = {coefficients_[n], momentum[0], momentum[1], momentum[2]};
   }
   cfd::GrainPhase& phase = gas_.grains();

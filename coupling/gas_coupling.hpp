@@ -29,6 +29,10 @@ class GasCoupling {
   ExchangeReport exchange(std::span<Vec3> forces, std::span<const GrainRecord> grains,
                           double interval);
 
+  // B of this rank's grains at the last exchange, kg/s; entries of grains without a gas force stay
+  // as they are. Collective.
+  void coefficients_of(std::span<double> grains) const;
+
   // Saves or restores all that enters later exchanges, without the forces that grains hold.
   // Collective.
   void visit_state(cfd::StateArchive& archive);
@@ -48,9 +52,10 @@ class GasCoupling {
   void deposit_void_fraction();
   void gather_sauter_diameters();
   void evaluate_drag();
-  void deposit_drag();
+  void deposit_drag(double interval);
   void advance_gas(double interval);
   void add_drag_on_walls(double interval);
+  double wall_motion_limit() const;
   void gather_forces();
   // Completes the report by what the ranks add up to; coupling/exchange_report.cpp.
   void measure(double interval);

@@ -114,8 +114,18 @@ std::vector<double> GrainTransfer::send_along(std::span<const double> local) con
 }
 
 void GrainTransfer::return_to_senders(std::span<Vec3> local, std::span<const Vec3> results) const {
+  send_back(local, results);
+}
+
+void GrainTransfer::return_to_senders(std::span<double> local,
+                                      std::span<const double> results) const {
+  send_back(local, results);
+}
+
+template <class T>
+void GrainTransfer::send_back(std::span<T> local, std::span<const T> results) const {
   GASGRAIN_ASSERT(results.size() == received_.size());
-  std::vector<Vec3> buffer(send_order_.size());
+  std::vector<T> buffer(send_order_.size());
   exchange_messages(decomposition_.communicator(), result_tag, sources_, results.data(),
                     destinations_, buffer.data());
   for (std::size_t n = 0; n < send_order_.size(); ++n) local[send_order_[n]] = buffer[n];

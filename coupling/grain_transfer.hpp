@@ -19,6 +19,8 @@ struct GrainRecord {
   double volume;             // of the grain, l^3 V0, m^3
   double mass;               // kg
   double original_diameter;  // d0, m
+  // N s: what it received from the gas in all beyond what the gas gave so far.
+  Vec3 carried = Vec3::Zero();
 };
 
 // Diameter of the grain (not of the original particle), m.
@@ -45,8 +47,12 @@ class GrainTransfer {
   // Gives `results` (one per received grain) back to the sender; `local` has one entry per grain
   // passed to send(), which stays as it is for grains outside the grid. Collective.
   void return_to_senders(std::span<Vec3> local, std::span<const Vec3> results) const;
+  void return_to_senders(std::span<double> local, std::span<const double> results) const;
 
  private:
+  template <class T>
+  void send_back(std::span<T> local, std::span<const T> results) const;
+
   // A message partner and its grains' range in the send order or in received().
   struct Partner {
     int rank;

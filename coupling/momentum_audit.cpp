@@ -19,7 +19,7 @@ void MomentumAudit::begin(const GrainTotals& grains, Feedback feedback) {
 
 void MomentumAudit::add_exchange(const ExchangeReport& report) {
   add(gas_, report.gas_momentum);
-  given_ += report.interval * report.force_on_grains;
+  given_ += report.interval * report.force_on_grains + report.carried;
   drag_on_walls_ += report.drag_on_walls;
   interval_ += report.interval;
 }

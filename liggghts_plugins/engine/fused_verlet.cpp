@@ -251,12 +251,12 @@ FusedVerlet::StepEnd FusedVerlet::who_looks_at_the_end() const {
 void FusedVerlet::force_pass(StepEnd end) {
   const bool goes_on = end != StepEnd::closed;
   const double half_kick = 0.5 * update->dt * force->ftm2v;
-  const Vec3* held = plan_.held_force ? plan_.held_force->held_forces() : nullptr;
+  const HeldForces held = plan_.held_force ? plan_.held_force->held_forces() : HeldForces{};
   const PassSettings settings{.slip = {History::advance, update->dt},
                               .kick = goes_on ? 2.0 * half_kick : half_kick,
                               .drift = goes_on ? update->dt : 0.0,
                               .gravity = plan_.acceleration,
-                              .held_forces = held};
+                              .held = held};
   loop_.outside_loads().resize(plan_.primitive_walls.size());
   for (std::size_t w = 0; w < plan_.primitive_walls.size(); ++w)
     compute_wall_loads(loop_.outside_loads()[w], *plan_.primitive_walls[w], *atom, loop_);
@@ -268,7 +268,7 @@ void FusedVerlet::force_pass(StepEnd end) {
   histories_are_ours_ = true;
   closed_ = !goes_on;
   contact_statistics().note(loop_.largest_overlap());
-  if (plan_.held_force) plan_.held_force->held_forces_applied();
+  if (plan_.held_force) plan_.held_force->held_forces_applied(loop_.held_force_sum());
   if (end != StepEnd::passed) {
     store_state(atom->nlocal);  // ghosts
     for (LAMMPS_NS::Fix* fix : plan_.after_contacts) fix->post_force(vflag);

@@ -61,7 +61,7 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
   void load_pairs();
   void load_state();
   void store_state(int from);
-  void show_grain(int i, const LoadRecord& load, const Vec3* held, double half_kick);
+  void show_grain(int i, const LoadRecord& load, const HeldForces& held, double half_kick);
   void store_histories();
 
   void note_drift(double square_speed);

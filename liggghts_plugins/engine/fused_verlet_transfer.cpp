@@ -110,11 +110,12 @@ void FusedVerlet::store_state(int from) {
 
 // The end of the present step, half a kick from the engine's state. Forces without gravity, whose
 // fix adds it and sums up its energy.
-void FusedVerlet::show_grain(int i, const LoadRecord& load, const Vec3* held, double half_kick) {
+void FusedVerlet::show_grain(int i, const LoadRecord& load, const HeldForces& held,
+                             double half_kick) {
   const GrainRecord& grain = loop_.grain(i);
   const SpinRecord& spin = loop_.spin(i);
   Vec3 f = ConstColumn(load.force);
-  if (held) f += held[i];
+  if (held.constant) f += held.on(i, ConstColumn(grain.velocity));
   const ConstColumn torque(load.torque);
   Column(atom->f[i]) = f;
   Column(atom->torque[i]) = torque;

@@ -121,14 +121,16 @@ void GrainLoop::force_pass(const PassSettings& settings, const Observer* observe
       .grains = grains_.data(),
       .spins = spins_.data(),
       .ring = ring_,
-      .held_forces = settings.held_forces ? settings.held_forces->data() : nullptr,
+      .held_forces = settings.held.constant ? settings.held.constant->data() : nullptr,
+      .drag = settings.held.coefficients,
       .fixed = some_fixed_ ? fixed_.data() : nullptr,
       .begin = 0,
       .end = 0,
       .gravity = {settings.gravity[0], settings.gravity[1], settings.gravity[2]},
       .kick = settings.kick,
       .drift = settings.drift,
-      .square_speed = 0.0};
+      .square_speed = 0.0,
+      .gas_force = {0.0, 0.0, 0.0}};
 
   for (WallContacts& wall : walls_) wall.begin_step();
   outside_done_.assign(outside_loads_.size(), 0);
@@ -146,6 +148,7 @@ void GrainLoop::force_pass(const PassSettings& settings, const Observer* observe
   loads_[ring_.discarded] = {};
   for (const WallContacts& wall : walls_) wall.end_step();
   square_speed_ = integration.square_speed;
+  held_force_sum_ = Eigen::Map<const Vec3>(integration.gas_force);
 }
 
 }  // namespace gasgrain::plugins

@@ -14,6 +14,7 @@
 
 #include "liggghts_plugins/contact_statistics.hpp"
 #include "liggghts_plugins/engine/contact_list.hpp"
+#include "liggghts_plugins/engine/held_force.hpp"
 #include "liggghts_plugins/engine/pair_law.hpp"
 #include "liggghts_plugins/engine/wall_contacts.hpp"
 
@@ -36,10 +37,10 @@ struct GrainState {
 
 struct PassSettings {
   TangentialStep slip;
-  double kick;              // s, velocities: dt, or dt/2 when the step ends here
-  double drift;             // s, positions: dt, or 0
-  Vec3 gravity;             // m/s^2
-  const Vec3* held_forces;  // N per local grain, or nullptr
+  double kick;      // s, velocities: dt, or dt/2 when the step ends here
+  double drift;     // s, positions: dt, or 0
+  Vec3 gravity;     // m/s^2
+  HeldForces held;  // per local grain
 };
 
 // A load that comes from outside of the loop.
@@ -79,6 +80,8 @@ class GrainLoop {
   void note_travel(double distance);
   void force_pass(const PassSettings& settings, const Observer* observer);
   double square_speed() const { return square_speed_; }  // largest of the last pass, m^2/s^2
+  // Sum over the local grains in the last pass, N; 0 when none follows the velocity.
+  const Vec3& held_force_sum() const { return held_force_sum_; }
   LargestOverlap largest_overlap() const { return {largest_[0], largest_[1]}; }
 
  private:
@@ -107,6 +110,7 @@ class GrainLoop {
   double near_travelled_ = 0;              // m since the near pairs were chosen
   double travelled_ = 0;                   // m since loading
   double square_speed_ = 0;
+  Vec3 held_force_sum_ = Vec3::Zero();
   double largest_[2] = {0, 0};
 };
 

@@ -7,13 +7,25 @@
 
 namespace gasgrain::plugins {
 
+// Force on local atom i: constant[i] - coefficients[i] * velocity, the velocity of the force
+// computation, between the halves of the kick.
+struct HeldForces {
+  const Vec3* constant = nullptr;        // N; nullptr: no forces
+  const double* coefficients = nullptr;  // kg/s; nullptr: no force follows the velocity
+
+  Vec3 on(int i, const Vec3& velocity) const {
+    return coefficients ? Vec3(constant[i] - coefficients[i] * velocity) : constant[i];
+  }
+};
+
 class HeldForceFix {
  public:
   virtual ~HeldForceFix() = default;
-  // Force on each local atom, N; changes only in end_of_step() and when atoms move between ranks.
-  virtual const Vec3* held_forces() const = 0;
-  // Does what post_force() does besides adding the forces.
-  virtual void held_forces_applied() = 0;
+  // Change only in end_of_step() and when atoms move between ranks.
+  virtual HeldForces held_forces() const = 0;
+  // Does what post_force() does besides adding the forces. `sum` of the forces on the local atoms,
+  // N; 0 when none follows the velocity.
+  virtual void held_forces_applied(const Vec3& sum) = 0;
   // Whether end_of_step() of the present step reads or changes atoms.
   virtual bool end_of_step_uses_atoms() const = 0;
 };

@@ -273,14 +273,16 @@ void contact_loads(ContactBatch& batch, const PairModel& model, bool uniform) {
   }
 }
 
-template <bool held, bool some_fixed>
+enum class Held { nothing, constant, with_drag };
+
+template <Held held, bool some_fixed>
 void integrate_block(IntegrationBatch& batch) {
   const double kick = batch.kick;
   const Quad gravity = {batch.gravity[0] * kick, batch.gravity[1] * kick, batch.gravity[2] * kick,
                         0.0};
   const Quad drift = {batch.drift, batch.drift, batch.drift, 0.0};
   const Quad no_fourth = {1.0, 1.0, 1.0, 0.0};
-  Quad fastest = {};
+  Quad fastest = {}, gas_sum = {};
   for (int i = batch.begin; i < batch.end; ++i) {
     GrainRecord& grain = batch.grains[i];
     SpinRecord& spin = batch.spins[i];
@@ -293,9 +295,15 @@ void integrate_block(IntegrationBatch& batch) {
       }
     }
     Quad force = load_quad(load.force);
-    if constexpr (held) {
+    if constexpr (held != Held::nothing) {
       const double* h = batch.held_forces + 3 * static_cast<std::size_t>(i);
-      force += Quad{h[0], h[1], h[2], 0.0};
+      Quad gas = {h[0], h[1], h[2], 0.0};
+      if constexpr (held == Held::with_drag) {
+        const double b = batch.drag[i];
+        gas -= Quad{b, b, b, 0.0} * load_quad(grain.velocity);
+        gas_sum += gas;
+      }
+      force += gas;
     }
     // the fourth values are inverse mass and inertia, to which zero is added
     const Quad velocity =
@@ -312,9 +320,11 @@ void integrate_block(IntegrationBatch& batch) {
     fastest = total > fastest ? total : fastest;
   }
   batch.square_speed = fastest[0] > batch.square_speed ? fastest[0] : batch.square_speed;
+  if constexpr (held == Held::with_drag)
+    for (int d = 0; d < 3; ++d) batch.gas_force[d] += gas_sum[d];
 }
 
-template <bool held>
+template <Held held>
 void integrate_held(IntegrationBatch& batch) {
   if (batch.fixed)
     integrate_block<held, true>(batch);
@@ -323,10 +333,12 @@ void integrate_held(IntegrationBatch& batch) {
 }
 
 void integrate(IntegrationBatch& batch) {
-  if (batch.held_forces)
-    integrate_held<true>(batch);
+  if (batch.drag)
+    integrate_held<Held::with_drag>(batch);
+  else if (batch.held_forces)
+    integrate_held<Held::constant>(batch);
   else
-    integrate_held<false>(batch);
+    integrate_held<Held::nothing>(batch);
 }
 
 }  // namespace

@@ -48,12 +48,14 @@ struct IntegrationBatch {
   SpinRecord* spins;
   LoadRing ring;
   const double* held_forces;   // N, three per grain, or nullptr
+  const double* drag;          // kg/s, to be multiplied with minus the velocity, or nullptr
   const unsigned char* fixed;  // not 0: neither moves nor changes its velocity; or nullptr
   int begin, end;
   double gravity[3];    // m/s^2
   double kick;          // s, for velocities
   double drift;         // s, for positions
   double square_speed;  // largest so far, m^2/s^2; updated
+  double gas_force[3];  // N, sum of held forces and drag so far; updated when there is drag
 };
 
 struct ContactKernel {

@@ -25,7 +25,8 @@ TEST(AuditBounds, say_value_bound_and_cause) {
   EXPECT_NE(found[0].text.find("-0.002 exceeds coupling.audit.momentum = 0.001"),
             std::string::npos);
   EXPECT_NE(found[0].text.find("wall fix floor"), std::string::npos);
-  const auto gone = violations(bounds, {1, 0, 0, 0, 0, 0}, {.unmeasured_walls = {}, .unexplained_grains = -3});
+  const auto gone =
+      violations(bounds, {1, 0, 0, 0, 0, 0}, {.unmeasured_walls = {}, .unexplained_grains = -3});
   EXPECT_NE(gone[0].text.find("-3 grains appeared or left"), std::string::npos);
 }
 

@@ -105,6 +105,23 @@ class CoupledBed(unittest.TestCase):
         with open(bench.directory / "out" / "probe_bottom.csv") as file:
             self.assertEqual(len(file.readlines()), len(rows) + 1)
 
+    def test_drag_that_follows_the_grains_keeps_the_momentum(self):
+        # intervals of changing length, from the limits; the engines agree
+        rows = {}
+        for engine, ranks in (("auto", 2), ("off", 1), ("auto", 1)):
+            with self.subTest(engine=engine, ranks=ranks):
+                bench = bed.bench(bed.case(coupling='series_interval = 5e-4\n'
+                                                    'drag_update = "dem-step"'))
+                bench.run(bed.script(f"gasgrain_engine {engine}\nrun 400"), ranks=ranks)
+                found = bed.quantities(bench.directory)
+                self.assertLess(found["momentum_balance_residual"], 1e-9)
+                self.assertLess(found["third_law_residual"], 1e-12)
+                rows[engine, ranks] = bed.series(bench.directory)
+        for row, expected in zip(rows["auto", 1], rows["off", 1], strict=True):
+            for name in ("pressure_drop", "kinetic_energy", "in_transit"):
+                self.assertAlmostEqual(row[name], expected[name],
+                                       delta=1e-6 * max(abs(expected[name]), 1e-6), msg=name)
+
     def test_balance_knows_grains_that_leave_and_that_are_inserted(self):
         jet = ("region jet block 0.001 0.0065 0.001 0.004 0.0073 0.009 units box\n"
                "group jet region jet\nvelocity jet set 0 0 3.0\n")

@@ -159,6 +159,23 @@ class Restart(unittest.TestCase):
         self.assertNotEqual(done.code, 0)
         self.assertIn("keyword every cannot be divided", done.text)
 
+    def test_drag_that_follows_the_grains_is_continued_too(self):
+        text = bed.case(coupling=EXCHANGE + 'drag_update = "dem-step"\n', interval=2e-3)
+        whole, parts = bed.bench(text), bed.bench(text)
+        whole.run(start("run 600"), ranks=2)
+        parts.run(start("run 400"), ranks=2)
+        parts.run(go_on("run 600 upto"), ranks=2)
+        self.assert_same(parts, whole)
+
+    def test_another_gas_is_refused(self):
+        bench = bed.bench(case())
+        bench.run(start("run 200"))
+        (bench.directory / "case.toml").write_text(case().replace("viscosity = 1.8e-5",
+                                                                  "viscosity = 2e-5"))
+        done = bench.run(go_on("run 10"), check=False)
+        self.assertNotEqual(done.code, 0)
+        self.assertIn("gas.viscosity = 1.8e-05, but the case file states 2e-05", done.text)
+
     def test_state_of_another_grid_is_refused(self):
         bench = bed.bench(case())
         bench.run(start("run 200"))

@@ -198,6 +198,7 @@ TEST(ContactKernel, integrates_as_velocity_verlet) {
                          .spins = crowd.spins.data(),
                          .ring = crowd.ring,
                          .held_forces = held,
+                         .drag = nullptr,
                          .fixed = nullptr,
                          .begin = 0,
                          .end = 3,
