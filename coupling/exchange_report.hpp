@@ -46,8 +46,8 @@ struct ExchangeReport {
   Vec3 carried = Vec3::Zero();          // N s: sum of GrainRecord::carried, given back to the gas
   Vec3 drag_on_walls = Vec3::Zero();    // N s: drag in directions in which a cell has no free face
   double third_law_residual = 0.0;      // |impulse of drag on grains + carried + on gas + on walls|
-                                    // over the sum of magnitudes of the grains' impulses
-  double pressure_residual = 0.0;  // the same for -V grad p
+                                        // over the sum of magnitudes of the grains' impulses
+  double pressure_residual = 0.0;       // the same for -V grad p
   IntervalLimits limits{};
   double gas_seconds = 0.0;  // wall time in the gas solver on this rank
 };

@@ -264,9 +264,9 @@ Vec3 FixCoupleGas::add_held_forces() {
   Vec3 sum = Vec3::Zero();
   const plugins::HeldForces held = held_forces();
   for_each_grain([&](int i) {
-    const Vec3 force = held.on(i, column(atom->v[i]));
-    sum += force;
-    for (int d = 0; d < 3; ++d) atom->f[i][d] += force[d];
+    const Vec3 on_grain = held.on(i, column(atom->v[i]));
+    sum += on_grain;
+    for (int d = 0; d < 3; ++d) atom->f[i][d] += on_grain[d];
   });
   return sum;
 }

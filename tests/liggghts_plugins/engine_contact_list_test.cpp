@@ -205,7 +205,8 @@ TEST(ContactKernel, integrates_as_velocity_verlet) {
                          .gravity = {0, 0, -9.81},
                          .kick = 0.1,
                          .drift = 0.2,
-                         .square_speed = 0.0};
+                         .square_speed = 0.0,
+                         .gas_force = {0.0, 0.0, 0.0}};
   const Vec3 spin = Vec3(crowd.spins[1].velocity) + 0.1 * Vec3(4, 5, 6);
   const Vec3 velocity = Vec3(before.velocity) + 0.1 * (Vec3(1.5, 1.5, 3.25) + Vec3(0, 0, -9.81));
   contact_kernel().integrate(batch);
