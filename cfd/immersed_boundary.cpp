@@ -1,11 +1,18 @@
 // At an open face at distance 0 <= phi < dx from a body the predicted velocity becomes
 //
-//   (1 - w) u* + w u_IB,     u_IB = u_wall + phi/(phi + delta) ( u*(x + delta n) - u_wall ),
+//   (1 - w) u* + w u_IB(phi),     u_IB(s) = u_wall + a s + b s^2,
 //   w = 1 / (1 + beta phi (phi + delta) / (eps mu)),     delta = 1.5 dx,
 //
-// the linear profile along the wall normal through a point one and a half cells further out, where
-// u* comes from trilinear interpolation among faces of the same direction. Second order; forcing by
-// volume fractions would be first order with a wall position that depends on the time step.
+// the parabola along the wall normal which the trilinear interpolant of u* among faces of the same
+// direction fits in value and normal slope at a point delta further out, s = phi + delta. Of a flow
+// u(s) this interpolant's value is u(s) + q u'' and its slope u'(s + t), with
+//
+//   q = sum_e theta_e (1 - theta_e) h_e^2 n_e^2 / 2,     t = sum_e (1/2 - theta_e) h_e n_e^3
+//
+// for the shares theta of the upper faces, so that a parabola is met exactly wherever the wall cuts
+// the grid. Second order around curved walls, with a third to a twentieth of the error of a linear
+// profile; forcing by volume fractions would be first order with a wall position that depends on
+// the time step. Where another wall is nearer to the point than this one the profile is linear.
 //
 // The weight w compares the thickness of the layer in which drag gives way to wall friction,
 // sqrt(eps mu / beta), with the distance: inside a dense bed that layer is a hundred times thinner
@@ -24,6 +31,7 @@ namespace gasgrain::cfd {
 namespace {
 
 constexpr double probe_cells = 1.5;  // delta / dx
+constexpr double narrow = 0.75;      // of the distance that the point would have from one wall
 
 double smallest_spacing(const GasDomain& domain) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -54,35 +62,72 @@ ImmersedBoundary::ImmersedBoundary(const GasDomain& domain) : varies_(domain.var
       if (part[n] == 0.0 || phi >= dx) return;
       Face face{.face = n,
                 .base = n,
-                .weight = Vec3::Zero(),
+                .weight = {},
+                .wall_weight = 1.0,
                 .distance = phi,
                 .body = static_cast<int>(domain.walls.nearest_body[d][n]),
                 .position = domain.face_centre(d, i, j, k),
                 .impulse = 0.0};
-      const Vec3 normal = outward_normal(domain, d, n);
-      for (int e = 0; e < 3; ++e) {
-        if (!varies_[e]) continue;
-        const double offset = probe_length_ * normal[e] / domain.spacing[e];
-        const double whole = std::floor(offset);
-        face.base += static_cast<std::ptrdiff_t>(whole) * part.stride(e);
-        face.weight[e] = offset - whole;
-      }
+      set_profile(face, domain, d, outward_normal(domain, d, n));
       faces_[d].push_back(face);
     });
   }
 }
 
-double ImmersedBoundary::at_point(const Face& face, const Field& velocity) const {
-  double sum = 0.0;
+void ImmersedBoundary::set_profile(Face& face, const GasDomain& domain, int d,
+                                   const Vec3& normal) const {
+  const Field& distance = domain.walls.distance[d];
+  Vec3 share = Vec3::Zero();  // of the upper faces in each direction
+  double q = 0.0, t = 0.0;
+  for (int e = 0; e < 3; ++e) {
+    if (!varies_[e]) continue;
+    const double h = domain.spacing[e], offset = probe_length_ * normal[e] / h;
+    const double whole = std::floor(offset);
+    face.base += static_cast<std::ptrdiff_t>(whole) * distance.stride(e);
+    share[e] = offset - whole;
+    q += 0.5 * share[e] * (1.0 - share[e]) * std::pow(h * normal[e], 2);
+    t += (0.5 - share[e]) * h * std::pow(normal[e], 3);
+  }
+  std::array<double, 8> value{}, slope{};
+  double probe_distance = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
-    double weight = 1.0;
     std::ptrdiff_t n = face.base;
+    Vec3 factor;
+    bool present = true;
     for (int e = 0; e < 3; ++e) {
       const bool upper = corner >> e & 1;
-      weight *= upper ? face.weight[e] : 1.0 - face.weight[e];
-      if (upper) n += velocity.stride(e);
+      factor[e] = upper ? share[e] : 1.0 - share[e];
+      if (upper) n += distance.stride(e);
+      present = present && (varies_[e] || !upper);
     }
-    if (weight != 0.0) sum += weight * velocity[n];
+    if (!present) continue;
+    value[corner] = factor.prod();
+    for (int e = 0; e < 3; ++e) {
+      if (!varies_[e]) continue;
+      const double others = factor[(e + 1) % 3] * factor[(e + 2) % 3];
+      slope[corner] += (corner >> e & 1 ? 1.0 : -1.0) * normal[e] / domain.spacing[e] * others;
+    }
+    if (value[corner] != 0.0) probe_distance += value[corner] * distance[n];
+  }
+  const double phi = face.distance, s = phi + probe_length_;
+  double a = phi / s, b = 0.0;  // the linear profile, between walls that face each other
+  if (probe_distance > narrow * s) {
+    a = phi * (2.0 * (s + t) - phi) / (s * s + 2.0 * s * t - 2.0 * q);
+    b = phi - a * s;
+  }
+  for (int corner = 0; corner < 8; ++corner) {
+    face.weight[corner] = a * value[corner] + b * slope[corner];
+  }
+  face.wall_weight = 1.0 - a;
+}
+
+double ImmersedBoundary::profile(const Face& face, const Field& velocity, double wall) const {
+  double sum = face.wall_weight * wall;
+  for (int corner = 0; corner < 8; ++corner) {
+    if (face.weight[corner] == 0.0) continue;
+    std::ptrdiff_t n = face.base;
+    for (int e = 0; e < 3; ++e) n += (corner >> e & 1) * velocity.stride(e);
+    sum += face.weight[corner] * velocity[n];
   }
   return sum;
 }
@@ -98,9 +143,8 @@ ImmersedBoundary::Condition ImmersedBoundary::condition(const Face& face, int d,
                                                         const Field& velocity,
                                                         const GasDomain& domain,
                                                         const FaceMedium& medium) const {
-  const double phi = face.distance, wall = domain.walls.wall_velocity[d][face.face];
   return {weight(face, d, domain, medium),
-          wall + phi / (phi + probe_length_) * (at_point(face, velocity) - wall)};
+          profile(face, velocity, domain.walls.wall_velocity[d][face.face])};
 }
 
 // eps rho (1 + K) is what a change of u* is worth in the final velocity's balance.

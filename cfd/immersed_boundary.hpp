@@ -1,6 +1,7 @@
 // The no-slip condition of bodies, imposed on the faces next to them (step 3 of the scheme).
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -45,16 +46,18 @@ class ImmersedBoundary {
 
  private:
   struct Face {
-    std::ptrdiff_t face;  // storage index
-    std::ptrdiff_t base;  // lowest of the eight faces around the point x + delta n
-    Vec3 weight;          // of the upper faces in each direction
-    double distance;      // phi, m
-    int body;             // the nearest one
-    Vec3 position;        // of the face's centre, m
-    double impulse;       // added by the last apply(), N s
+    std::ptrdiff_t face;           // storage index
+    std::ptrdiff_t base;           // lowest of the eight faces around the point x + delta n
+    std::array<double, 8> weight;  // of these in u_IB; corner c is upper in direction e: c >> e & 1
+    double wall_weight;            // of the wall's velocity in u_IB
+    double distance;               // phi, m
+    int body;                      // the nearest one
+    Vec3 position;                 // of the face's centre, m
+    double impulse;                // added by the last apply(), N s
   };
 
-  double at_point(const Face& face, const Field& velocity) const;
+  void set_profile(Face& face, const GasDomain& domain, int d, const Vec3& normal) const;
+  double profile(const Face& face, const Field& velocity, double wall) const;
   double weight(const Face& face, int d, const GasDomain& domain, const FaceMedium& medium) const;
   // w and u_IB of a face of direction d.
   struct Condition {
