@@ -57,7 +57,7 @@ TEST(GasSolver, momentum_budget_closes_to_round_off) {
     set_moving_heap(solver, phase += 0.05, 0.3, 40.0);
     const MomentumBudget budget = solver.advance(dt).momentum;
     const double scale = testing::turnover(budget);
-    EXPECT_GT(budget.body.norm(), 1e-4 * scale);
+    EXPECT_GT(budget.body.norm(), 1e-5 * scale);
     EXPECT_GT(budget.viscous.norm(), 1e-6 * scale);
     EXPECT_GT(budget.drag.norm(), 1e-3 * scale);
     EXPECT_LT(testing::imbalance(budget).norm(), 1e-12 * scale);
