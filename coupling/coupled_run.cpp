@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "coupling/files/collective_error.hpp"
 #include "coupling/files/hdf5_file.hpp"
 #include "coupling/run_report.hpp"
+#include "coupling/shared/complete_file.hpp"
 #include "coupling/shared/error.hpp"
 #include "coupling/shared/text.hpp"
 
@@ -310,10 +310,7 @@ void CoupledRun::save(const std::string& path) {
   file.flush();
   file.close();
   run_collectively(communicator_, [&] {
-    if (coupling_.gas().decomposition().rank() != 0) return;
-    std::error_code error;
-    std::filesystem::rename(partial, path, error);
-    if (error) throw UserError("cannot write '" + path + "': " + error.message());
+    if (coupling_.gas().decomposition().rank() == 0) complete_file(partial, path);
   });
 }
 

@@ -19,6 +19,8 @@
 #include <set>
 #include <vector>
 
+#include "coupling/files/collective_error.hpp"
+#include "coupling/shared/complete_file.hpp"
 #include "coupling/shared/error.hpp"
 
 namespace gasgrain::plugins {
@@ -146,24 +148,21 @@ void make_latest(const files::path& directory, const std::string& step) {
   files::remove(fresh, ignored);
   files::create_symlink("grains." + step + ".restart", fresh);
   files::rename(fresh, latest);
+  put_on_disk(directory);
   remove_others(directory, {step, before});
 }
 
 // Runs `work` on rank 0; what it throws, all ranks throw.
 template <class Work>
 void on_first_rank(const LAMMPS& lmp, const std::string& what, const Work& work) {
-  int failed = 0;
-  std::string reason;
-  if (lmp.comm->me == 0) {
+  run_collectively(lmp.world, [&] {
+    if (lmp.comm->me != 0) return;
     try {
       work();
-    } catch (const files::filesystem_error& error) {
-      failed = 1;
-      reason = std::string(": ") + error.what();
+    } catch (const std::exception& error) {
+      fail("cannot " + what + ": " + error.what());
     }
-  }
-  MPI_Bcast(&failed, 1, MPI_INT, 0, lmp.world);
-  if (failed) fail("cannot " + what + reason);
+  });
 }
 
 void write_checkpoint(LAMMPS& lmp) {
@@ -179,7 +178,7 @@ void write_checkpoint(LAMMPS& lmp) {
   LAMMPS_NS::WriteRestart(&lmp).command(1, &argument);
   wanted.being_written = false;
   on_first_rank(lmp, "complete the checkpoint in " + wanted.directory, [&] {
-    files::rename(partial, directory / ("grains." + step + ".restart"));
+    complete_file(partial, directory / ("grains." + step + ".restart"));
     make_latest(directory, step);
   });
   char line[160];

@@ -15,7 +15,8 @@ ALLOWED = {
     "coupling/shared": [],
     "coupling/files": ["coupling/shared", "MPI"],
     "cfd": ["coupling/shared", "coupling/files", "MPI"],
-    "liggghts_plugins": ["coupling/shared", "coupling/files/sdf_file.hpp", "LIGGGHTS", "MPI"],
+    "liggghts_plugins": ["coupling/shared", "coupling/files/sdf_file.hpp",
+                         "coupling/files/collective_error.hpp", "LIGGGHTS", "MPI"],
     "coupling": ["coupling/shared", "coupling/files", "cfd", "liggghts_plugins", "LIGGGHTS", "MPI"],
 }
 

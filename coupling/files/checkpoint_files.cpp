@@ -1,8 +1,5 @@
 #include "coupling/files/checkpoint_files.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -10,20 +7,13 @@
 #include <utility>
 
 #include "coupling/files/collective_error.hpp"
+#include "coupling/shared/complete_file.hpp"
 
 namespace gasgrain {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-// Asks the operating system to have a file, or the entries of a directory, on the disk.
-void put_on_disk(const std::string& path) {
-  const int file = open(path.c_str(), O_RDONLY);
-  const bool done = file >= 0 && fsync(file) == 0;
-  if (file >= 0) close(file);
-  if (!done) throw UserError("cannot write '" + path + "' to the disk; is it full?");
-}
 
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code absent;
@@ -68,11 +58,7 @@ std::string CheckpointFiles::write(long step, const std::function<void(Hdf5File&
   });
   run_collectively(comm_, [&] {
     if (rank_ != 0) return;
-    put_on_disk(part);
-    std::error_code error;
-    fs::rename(part, path, error);
-    if (error) throw UserError("cannot write '" + path + "': " + error.message());
-    put_on_disk(directory_);
+    complete_file(part, path);
     remove_all_but(path);
   });
   previous_ = path;
