@@ -64,8 +64,8 @@ std::vector<AuditViolation> violations(const AuditBounds& bounds, const AuditRes
   check("divergence", residuals.divergence, bounds.divergence,
         "the pressure solve is too coarse; lower numerics.pressure_tolerance");
   check("heating", residuals.heating, bounds.heating,
-        "the grains gained energy that neither gas nor weight gave; walls that move, or a DEM step "
-        "beyond an eighth of the contact time");
+        "the grains gained energy that neither gas nor weight gave; is the DEM step beyond an "
+        "eighth of the contact time?");
   return found;
 }
 

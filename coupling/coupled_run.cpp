@@ -235,7 +235,8 @@ void CoupledRun::audit() {
   row_.momentum_residual =
       weight > 0 ? row_.balance.residual[axis] / weight : row_.balance.residual[axis];
   const double store = row_.energy.kinetic + row_.energy.rotation + row_.energy.elastic;
-  row_.heating = store > 0 ? std::max(0.0, -row_.energy.dissipated) / store : 0.0;
+  row_.heating =
+      store > 0 && !host_.walls_move() ? std::max(0.0, -row_.energy.dissipated) / store : 0.0;
   row_.overlap = std::exchange(overlap_, {});
   RunExtremes& extremes = statistics_.extremes;
   extremes.overlap.length = std::max(extremes.overlap.length, row_.overlap.length);

@@ -42,6 +42,8 @@ class DemHost {
   virtual RunProgress progress() const = 0;
   // IDs of walls whose force nobody measures.
   virtual std::vector<std::string> unmeasured_walls() const = 0;
+  // Whether some wall's surface has moved: its work on the grains is not measured. Collective.
+  virtual bool walls_move() const = 0;
 
   virtual std::vector<GrainRecord> records() const = 0;  // coupled grains of this rank
   // Sets what the grains carry. They hold their forces since `elapsed` [s]; for these forces the

@@ -490,6 +490,13 @@ Vec3 FixCoupleGas::take_wall_impulse() {
   return sum;
 }
 
+bool FixCoupleGas::walls_move() const {
+  int some = 0;
+  for (const plugins::GrainWall* wall : plugins::grain_walls(*lmp)) some |= wall->surface_moves();
+  MPI_Allreduce(MPI_IN_PLACE, &some, 1, MPI_INT, MPI_MAX, communicator_);
+  return some != 0;
+}
+
 plugins::LargestOverlap FixCoupleGas::take_largest_overlap() {
   const plugins::LargestOverlap mine = plugins::contact_statistics().take();
   double largest[2] = {mine.length, mine.relative};

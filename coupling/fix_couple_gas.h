@@ -73,6 +73,7 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
   Vec3 gravity() const override;
   RunProgress progress() const override;
   std::vector<std::string> unmeasured_walls() const override;
+  bool walls_move() const override;
   std::vector<GrainRecord> records() const override;
   void add_carried(std::vector<GrainRecord>& grains, double elapsed, double given) const override;
   GrainState grain_state() const override;

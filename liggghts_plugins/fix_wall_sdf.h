@@ -65,6 +65,9 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
 
   std::string wall_name() const override { return id; }
   Vec3 take_impulse() override { return impulse_.take(); }
+  bool surface_moves() const override {
+    return motion_.by_variable.exists() || !wall_.body().motion.is_at_rest();
+  }
 
   // For the fused engine, which computes the contacts itself between reneighbourings.
   SdfWall& wall() { return wall_; }

@@ -47,6 +47,8 @@ class GrainWall {
   // Impulse of this rank's grains on the wall since the last call, N s. Valid at the end of a step
   // (or later than the wall's post_force: the force of the present step counts half).
   virtual Vec3 take_impulse() = 0;
+  // Whether this rank knows that its surface moves, so that it works on the grains.
+  virtual bool surface_moves() const = 0;
 
  private:
   LAMMPS_NS::LAMMPS& lmp_;

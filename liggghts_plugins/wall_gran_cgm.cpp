@@ -109,6 +109,7 @@ void WallGranCgm::compute_force(FixWallGran* wall, SurfacesIntersectData& contac
         {.length = contact.deltan, .relative = contact.deltan / (2.0 * contact.radi)});
     enter_present_step();
     step_force_ -= on_grain.force;
+    surface_moves_ = surface_moves_ || !ConstColumn(wall_velocity).isZero(0.0);
   }
 
   const int triangle_id = mesh ? mesh->id(triangle) : 0;

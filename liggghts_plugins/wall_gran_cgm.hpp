@@ -32,6 +32,7 @@ class WallGranCgm : public LIGGGHTS::Walls::IGranularWall,
 
   std::string wall_name() const override;
   Vec3 take_impulse() override;
+  bool surface_moves() const override { return surface_moves_; }
 
  private:
   struct Forces {
@@ -57,6 +58,7 @@ class WallGranCgm : public LIGGGHTS::Walls::IGranularWall,
   LAMMPS_NS::bigint step_ = -1;
   bool setup_step_ = true;
   bool step_closed_ = true;
+  bool surface_moves_ = false;  // where it was touched
 };
 
 }  // namespace gasgrain::plugins
