@@ -70,14 +70,15 @@ void CoupledRun::begin(std::span<Vec3> forces, std::span<double> coefficients) {
   open_files({});
   watch_bed();
   label_grains();
-  row_.exchange = coupling_.begin(forces, host_.records(), host_.time());
+  const std::vector<GrainRecord> grains = host_.records();
+  row_.exchange = coupling_.begin(forces, grains, host_.time());
   if (drag_follows_grains()) coupling_.coefficients_of(coefficients);
   monitor_->observe(coupling_.void_fraction());
   held_force_ = row_.exchange.force_on_grains;
   row_.grains = host_.totals();
   audit_.begin(row_.grains, case_.options.feedback);
   energy_.begin(row_.grains);
-  note_gas_power(forces);
+  note_gas_power(forces, grains);
   host_.take_wall_impulse();
   host_.take_largest_overlap();
   choose_next_interval();
@@ -161,7 +162,7 @@ void CoupledRun::exchange(std::span<Vec3> forces, std::span<double> coefficients
   held_force_ = row_.exchange.force_on_grains;
   audit_.add_exchange(row_.exchange);
   traffic_.exchanged();
-  note_gas_power(forces);
+  note_gas_power(forces, grains);
   statistics_.grain_steps +=
       double(row_.exchange.grains_inside + row_.exchange.grains_outside) * steps_since_exchange_;
   steps_since_exchange_ = 0;
@@ -176,10 +177,11 @@ void CoupledRun::exchange(std::span<Vec3> forces, std::span<double> coefficients
   start_clock();
 }
 
-void CoupledRun::note_gas_power(std::span<const Vec3> forces) {
+void CoupledRun::note_gas_power(std::span<const Vec3> forces,
+                                const std::vector<GrainRecord>& grains) {
   gas_power_ = 0.0;
   std::size_t n = 0;
-  for (const GrainRecord& grain : host_.records()) gas_power_ += forces[n++].dot(grain.velocity);
+  for (const GrainRecord& grain : grains) gas_power_ += forces[n++].dot(grain.velocity);
 }
 
 // Since the last audit.

@@ -107,7 +107,7 @@ class CoupledRun {
   void audit();
   void judge();
   double time_of_passage(GrainTraffic::Moment moment, double dem_step) const;
-  void note_gas_power(std::span<const Vec3> forces);
+  void note_gas_power(std::span<const Vec3> forces, const std::vector<GrainRecord>& grains);
   void choose_next_interval();
   void write_outputs(double time);
   void write_frame(double time);

@@ -1,5 +1,6 @@
 """What the examples share: starting gasgrain under MPI, editing a case file, the summary file."""
 
+import argparse
 import json
 import os
 import pathlib
@@ -37,6 +38,35 @@ def binary(name):
     if not found:
         fail(f"{name} is not built; start the example through examples/run, or build first")
     return found
+
+
+def whole_number_from_one(text):
+    """An option's value, checked by argparse."""
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"is {value}, but must be at least 1")
+    return value
+
+
+def add_ranks(parser):
+    parser.add_argument("--ranks", type=whole_number_from_one, default=os.cpu_count(), metavar="N",
+                        help="MPI ranks (default: all cores, here %(default)s)")
+
+
+def add_run_options(parser, name):
+    """Options of an example that runs in one go."""
+    add_ranks(parser)
+    parser.add_argument("--out", default=str(ROOT / "out" / name), metavar="DIR",
+                        help=f"directory for the results (default out/{name})")
+
+
+def fresh_directory(path):
+    """The directory for results, without those of an earlier run."""
+    out = pathlib.Path(path).resolve()
+    out.mkdir(parents=True, exist_ok=True)
+    for old in ("summary.json", "result.png"):
+        (out / old).unlink(missing_ok=True)
+    return out
 
 
 def start_gasgrain(directory, script, ranks, variables):

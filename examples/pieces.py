@@ -150,8 +150,7 @@ def run_piece(job, how):
 
 def add_limits(parser):
     """Options for how much of the machine a run takes."""
-    parser.add_argument("--ranks", type=int, default=os.cpu_count(), metavar="N",
-                        help="MPI ranks (default: all cores, here %(default)s)")
+    common.add_ranks(parser)
     parser.add_argument("--hours", type=float, default=2.0, metavar="H",
                         help="stop with a checkpoint after so many hours, exit code 75; the same "
                              "command goes on (default %(default)g)")

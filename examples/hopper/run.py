@@ -2,7 +2,6 @@
 
 import argparse
 import math
-import os
 import pathlib
 import sys
 
@@ -38,18 +37,13 @@ def options():
                         help="number of grains of 2 mm (default %(default)s)")
     parser.add_argument("--time", type=float, default=1.9, metavar="T",
                         help=f"simulated time, s; the gate opens at {OPENING} s (default %(default)g)")
-    parser.add_argument("--ranks", type=int, default=os.cpu_count(), metavar="N",
-                        help="MPI ranks (default: all cores, here %(default)s)")
-    parser.add_argument("--out", default=str(common.ROOT / "out" / "hopper"), metavar="DIR",
-                        help="directory for the results (default out/hopper)")
+    common.add_run_options(parser, "hopper")
     chosen = parser.parse_args()
     if not 12000 <= chosen.grains <= 20000:
         parser.error(f"--grains is {chosen.grains}, but must be 12000 to 20000: fewer do not fill the "
                      "cone, more do not fit")
     if not chosen.time >= OPENING + MEASURED[1]:
         parser.error(f"--time is {chosen.time:g}, but must be at least {OPENING + MEASURED[1]:g} s")
-    if not chosen.ranks >= 1:
-        parser.error(f"--ranks is {chosen.ranks}, but must be at least 1")
     return chosen
 
 
@@ -80,10 +74,7 @@ def summary(series, at_rest):
 
 def main():
     chosen = options()
-    out = pathlib.Path(chosen.out).resolve()
-    out.mkdir(parents=True, exist_ok=True)
-    for old in ("summary.json", "result.png"):
-        (out / old).unlink(missing_ok=True)
+    out = common.fresh_directory(chosen.out)
     print("Discharge of a conical hopper of 60 mm with an outlet of 14 mm")
     print(f"  grains         {chosen.grains} of {1e3 * DIAMETER:g} mm")
     print(f"  time           {chosen.time:g} s, gate opens at {OPENING} s, flow measured from "

@@ -2,7 +2,6 @@
 
 import argparse
 import math
-import os
 import pathlib
 import subprocess
 import sys
@@ -32,17 +31,12 @@ def options():
                         help="revolutions per minute (default %(default)g)")
     parser.add_argument("--time", type=float, default=2.3, metavar="T",
                         help=f"simulated time, s; the drum turns from {START} s on (default %(default)g)")
-    parser.add_argument("--ranks", type=int, default=os.cpu_count(), metavar="N",
-                        help="MPI ranks (default: all cores, here %(default)s)")
-    parser.add_argument("--out", default=str(common.ROOT / "out" / "rotating_drum"), metavar="DIR",
-                        help="directory for the results (default out/rotating_drum)")
+    common.add_run_options(parser, "rotating_drum")
     chosen = parser.parse_args()
     if not 1 <= chosen.grains <= 9000:
         parser.error(f"--grains is {chosen.grains}, but must be 1 to 9000: more do not fit loosely")
     if not chosen.time > AVERAGE_FROM:
         parser.error(f"--time is {chosen.time:g}, but must exceed {AVERAGE_FROM} s")
-    if not chosen.ranks >= 1:
-        parser.error(f"--ranks is {chosen.ranks}, but must be at least 1")
     return chosen
 
 
@@ -77,10 +71,7 @@ def summary(series, indices):
 
 def main():
     chosen = options()
-    out = pathlib.Path(chosen.out).resolve()
-    out.mkdir(parents=True, exist_ok=True)
-    for old in ("summary.json", "result.png"):
-        (out / old).unlink(missing_ok=True)
+    out = common.fresh_directory(chosen.out)
     rate = 2 * math.pi * chosen.speed / 60
     print("Rotating drum with lifters, walls from an STL file")
     print(f"  grains         {chosen.grains} of {2e3 * RADIUS:g} mm")

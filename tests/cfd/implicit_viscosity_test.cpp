@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/cfd/drifting_vortices.hpp"
 #include "tests/cfd/gas_fixture.hpp"
 
 namespace gasgrain::cfd {
@@ -141,39 +142,18 @@ TEST(ImplicitViscosity, does_not_depend_on_the_decomposition) {
   EXPECT_NEAR(energy(MPI_COMM_WORLD), alone, 1e-7 * alone);
 }
 
-// Vortices that decay and drift in a periodic box: root mean square velocity difference.
 VectorField vortices(Viscosity viscosity, int steps) {
-  GasCase c = box_case(Vec3(1, 1, 1), {16, 1, 16});
-  c.gas.viscosity = 0.1;
-  c.numerics.viscosity = viscosity;
-  c.numerics.convection = Convection::central;
-  c.numerics.pressure_tolerance = 1e-12;
-  set_sides(c, 0, BoundaryType::periodic);
-  set_sides(c, 1, BoundaryType::slip);
-  set_sides(c, 2, BoundaryType::periodic);
-  GasSolver solver(c, MPI_COMM_SELF);
-  const double k = 2.0 * M_PI;
-  solver.set_velocity([k](const Vec3& x) {
-    return Vec3(0.5 + std::sin(k * x[0]) * std::cos(k * x[2]), 0,
-                0.2 - std::cos(k * x[0]) * std::sin(k * x[2]));
+  return testing::drifting_vortices(steps, [&](GasCase& c) {
+    c.gas.viscosity = 0.1;
+    c.numerics.viscosity = viscosity;
   });
-  for (int n = 0; n < steps; ++n) solver.advance(0.2 / steps);
-  return solver.velocity();
-}
-
-double distance(const VectorField& a, const VectorField& b) {
-  double sum = 0.0;
-  for_each_cell(a[0].size(), [&](int i, int j, int k) {
-    for (int d : {0, 2}) sum += std::pow(a[d](i, j, k) - b[d](i, j, k), 2);
-  });
-  return std::sqrt(sum);
 }
 
 TEST(ImplicitViscosity, is_of_second_order_in_time) {
   const VectorField exact = vortices(Viscosity::explicit_step, 800);
-  const double coarse = distance(vortices(Viscosity::implicit_step, 16), exact);
-  const double fine = distance(vortices(Viscosity::implicit_step, 32), exact);
-  const double finest = distance(vortices(Viscosity::implicit_step, 64), exact);
+  const double coarse = testing::distance(vortices(Viscosity::implicit_step, 16), exact);
+  const double fine = testing::distance(vortices(Viscosity::implicit_step, 32), exact);
+  const double finest = testing::distance(vortices(Viscosity::implicit_step, 64), exact);
   EXPECT_GT(std::log2(coarse / fine), 1.8) << coarse << " " << fine;
   EXPECT_GT(std::log2(fine / finest), 1.8) << fine << " " << finest;
 }

@@ -5,6 +5,7 @@
 
 #include "cfd/gas_solver.hpp"
 #include "cfd/time_step.hpp"
+#include "tests/cfd/drifting_vortices.hpp"
 #include "tests/cfd/gas_fixture.hpp"
 
 namespace gasgrain::cfd {
@@ -106,43 +107,19 @@ TEST(StepLimits, of_two_stages_are_twice_as_long) {
   EXPECT_NEAR(solver_of(c).step_limits().viscosity, 0.9 * 0.01 / 6.0, 1e-15);
 }
 
-// Velocity of vortices that decay and drift in a periodic box, after `steps` equal steps.
 VectorField drifting_vortices(TimeScheme scheme, int steps) {
-  GasCase c = testing::box_case(Vec3(1, 1, 1), {16, 1, 16});
-  c.gas.viscosity = 0.01;
-  c.numerics.time_scheme = scheme;
-  c.numerics.convection = Convection::central;
-  c.numerics.pressure_tolerance = 1e-12;
-  testing::set_sides(c, 0, BoundaryType::periodic);
-  testing::set_sides(c, 1, BoundaryType::slip);
-  testing::set_sides(c, 2, BoundaryType::periodic);
-  GasSolver solver(c, MPI_COMM_SELF);
-  const double k = 2.0 * M_PI;
-  solver.set_velocity([k](const Vec3& x) {
-    return Vec3(0.5 + std::sin(k * x[0]) * std::cos(k * x[2]), 0,
-                0.2 - std::cos(k * x[0]) * std::sin(k * x[2]));
+  return testing::drifting_vortices(steps, [&](GasCase& c) {
+    c.gas.viscosity = 0.01;
+    c.numerics.time_scheme = scheme;
   });
-  for (int n = 0; n < steps; ++n) solver.advance(0.2 / steps);
-  return solver.velocity();
-}
-
-double distance(const VectorField& a, const VectorField& b) {
-  double sum = 0.0;
-  for_each_cell(a[0].size(), [&](int i, int j, int k) {
-    for (int d : {0, 2}) {
-      const double difference = a[d](i, j, k) - b[d](i, j, k);
-      sum += difference * difference;
-    }
-  });
-  return std::sqrt(sum);
 }
 
 TEST(TimeSchemes, both_are_second_order_and_two_stages_err_less) {
   const VectorField exact = drifting_vortices(TimeScheme::rk2, 400);
   std::array<double, 2> finest{};
   for (const TimeScheme scheme : {TimeScheme::ab2, TimeScheme::rk2}) {
-    const double coarse = distance(drifting_vortices(scheme, 25), exact);
-    const double fine = distance(drifting_vortices(scheme, 50), exact);
+    const double coarse = testing::distance(drifting_vortices(scheme, 25), exact);
+    const double fine = testing::distance(drifting_vortices(scheme, 50), exact);
     EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.15) << coarse << " " << fine;
     finest[scheme == TimeScheme::rk2 ? 1 : 0] = fine;
   }
