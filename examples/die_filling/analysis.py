@@ -108,12 +108,16 @@ def time_full(table):
 
 def plateau(series):
     """Begin and end (s) and mean (Pa) of the longest time in which the pressure below the shoe
-    stays within 10 % of its middle value, of means over 20 ms."""
+    stays within 10 % of its middle value and above half of its largest, of means over 20 ms. Once
+    the die is full it rests near zero."""
     width = max(1, round(0.02 / numpy.median(numpy.diff(series["time"]))))
     pressure = numpy.convolve(series["pressure_drop"], numpy.ones(width) / width, mode="valid")
     time = series["time"][width // 2:][:len(pressure)]
     best, first = (0, 0), 0
     for last in range(len(pressure)):
+        if pressure[last] < 0.5 * pressure.max():
+            first = last + 1
+            continue
         while numpy.ptp(pressure[first:last + 1]) > 0.1 * (pressure[first:last + 1].max()
                                                            + pressure[first:last + 1].min()):
             first += 1

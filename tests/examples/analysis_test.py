@@ -85,6 +85,14 @@ class Plateau(unittest.TestCase):
         self.assertAlmostEqual(end, 0.6 + 0.4 * margin, delta=0.015)
         self.assertAlmostEqual(level, 291, delta=6)
 
+    def test_rest_after_the_die_is_full_does_not_count(self):
+        time = numpy.arange(0, 2, 0.002)
+        pressure = numpy.interp(time, [0, 0.1, 0.3, 0.4], [300, 300, 300, 1])
+        begin, end, level = analysis.plateau({"time": time, "pressure_drop": pressure})
+        self.assertLess(begin, 0.02)
+        self.assertAlmostEqual(end, 0.3, delta=0.03)
+        self.assertGreater(level, 280)
+
 
 class Steps(unittest.TestCase):
     def test_contact_time_of_the_paper(self):
