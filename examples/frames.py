@@ -32,3 +32,16 @@ def read_table(file):
 def read_time_series(directory):
     """timeseries.csv: column name -> array."""
     return read_table(pathlib.Path(directory) / "timeseries.csv")
+
+
+def mean_gas(directory, start):
+    """Means over time and depth: void fraction [z, x] and superficial velocity eps u [z, x, xz]."""
+    void, flux, count = 0.0, 0.0, 0
+    for time, file in frame_files(directory, "gas"):
+        if time < start:
+            continue
+        gas = read_frame(file)
+        void = void + gas["void_fraction"].mean(axis=1)
+        flux = flux + (gas["void_fraction"][..., None] * gas["velocity"])[..., [0, 2]].mean(axis=1)
+        count += 1
+    return void / count, flux / count

@@ -47,6 +47,28 @@ def frame_section(axes, x, z, title):
     axes.tick_params(length=2)
 
 
+def series_with_mean(axes, series, column, mean, reference, start, scale):
+    """A column over time with its mean from `start` on, and a reference (value, name) dashed.
+
+    `scale`: from SI to the unit of the axis.
+    """
+    time = series["time"]
+    axes.axvspan(start, time[-1], color="0.93", zorder=0)
+    axes.plot(time, scale * series[column], color="C0", linewidth=0.9)
+    # The first instants press the bed against nothing yet; what follows sets the range.
+    top = 1.25 * numpy.nanmax(series[column][time > 0.25 * start])
+    axes.set_ylim(0, scale * top)
+    if mean:
+        axes.plot([start, time[-1]], [scale * mean] * 2, color="C3", linewidth=1.4,
+                  label=f"mean {scale * mean:.4g}")
+    value, text = reference
+    if value:
+        axes.axhline(scale * value, color="0.2", linewidth=1, linestyle="--",
+                     label=f"{text} {scale * value:.4g}")
+    axes.set_xlim(0, time[-1])
+    axes.legend(loc="best", frameon=False, fontsize=8)
+
+
 def animate(path, figure, count, draw, frames_per_second=12):
     """Writes a GIF of `count` pictures; draw(i) changes the figure to number i."""
     writer = PillowWriter(fps=frames_per_second)

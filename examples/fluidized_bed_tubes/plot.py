@@ -50,24 +50,6 @@ def draw_void_fraction(axes, gas, tubes):
     return picture
 
 
-def draw_series(axes, series, column, mean, reference, start, scale):
-    time = series["time"]
-    axes.axvspan(start, time[-1], color="0.93", zorder=0)
-    axes.plot(time, scale * series[column], color="C0", linewidth=0.9)
-    # The first instants press the bed against nothing yet; what follows sets the range.
-    top = 1.25 * numpy.nanmax(series[column][time > 0.25 * start])
-    axes.set_ylim(0, scale * top)
-    if mean:
-        axes.plot([start, time[-1]], [scale * mean] * 2, color="C3", linewidth=1.4,
-                  label=f"mean {scale * mean:.4g}")
-    value, text = reference
-    if value:
-        axes.axhline(scale * value, color="0.2", linewidth=1, linestyle="--",
-                     label=f"{text} {scale * value:.4g}")
-    axes.set_xlim(0, time[-1])
-    axes.legend(loc="best", frameon=False, fontsize=8)
-
-
 def draw(directory, picture, start, tubes):
     """Writes `picture` (PNG) from the results in `directory`; `start` of the means in s."""
     series = frames.read_time_series(directory)
@@ -93,10 +75,10 @@ def draw(directory, picture, start, tubes):
     figure.colorbar(circles, ax=grains_axes, location="bottom", label="vertical velocity / (m/s)")
     figure.colorbar(void, ax=void_axes, location="bottom", label="mean over the depth")
 
-    draw_series(pressure_axes, series, "pressure_drop", pressure["value"],
+    pictures.series_with_mean(pressure_axes, series, "pressure_drop", pressure["value"],
                 (balance["value"], "weight and buried tubes"), start, 1.0)
     pressure_axes.set(ylabel="pressure drop / Pa")
-    draw_series(height_axes, series, "bed_height", height["value"],
+    pictures.series_with_mean(height_axes, series, "bed_height", height["value"],
                 (height["reference"], "experiment"), start, MM)
     height_axes.set(ylabel="bed height / mm", xlabel="time with gas / s")
     figure.savefig(picture, dpi=130)
@@ -114,19 +96,6 @@ def read_loads(directory):
     return dict(zip(names, table.T))
 
 
-def mean_gas(directory, start):
-    """Means over time and depth: void fraction [z, x] and superficial velocity eps u [z, x, xz]."""
-    void, flux, count = 0.0, 0.0, 0
-    for time, file in frames.frame_files(directory, "gas"):
-        if time < start:
-            continue
-        gas = frames.read_frame(file)
-        void = void + gas["void_fraction"].mean(axis=1)
-        flux = flux + (gas["void_fraction"][..., None] * gas["velocity"])[..., [0, 2]].mean(axis=1)
-        count += 1
-    return void / count, flux / count
-
-
 def mean_gas_force(directory, number, start):
     """Horizontal and vertical force of the gas on a tube, mN."""
     table = frames.read_table(pathlib.Path(directory) / f"probe_tube{number}.csv")
@@ -137,7 +106,7 @@ def mean_gas_force(directory, number, start):
 
 def draw_tubes_closely(directory, picture, start, tubes):
     """Mean gas flow around the tubes and the forces on them."""
-    void, flux = mean_gas(directory, start)
+    void, flux = frames.mean_gas(directory, start)
     loads = read_loads(directory)
     layers, columns = void.shape
     cell = WIDTH / columns
