@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "cfd/state_file.hpp"
 #include "coupling/files/collective_error.hpp"
@@ -59,6 +58,8 @@ CoupledRun::CoupledRun(const Case& settings, const std::string& directory, DemHo
       communicator_(communicator),
       coupling_(case_.gas, case_.options, communicator),
       monitors_(case_.options.monitor),
+      audit_(case_.options.audit, case_.options.feedback, drag_follows_grains(), host,
+             communicator),
       directory_(output_directory(case_.gas.output, directory)),
       series_schedule_(series_interval(case_.options, case_.gas.output)),
       frame_schedule_(case_.gas.output.interval > 0 ? case_.gas.output.interval
@@ -74,13 +75,8 @@ void CoupledRun::begin(std::span<Vec3> forces, std::span<double> coefficients) {
   row_.exchange = coupling_.begin(forces, grains, host_.time());
   if (drag_follows_grains()) coupling_.coefficients_of(coefficients);
   monitor_->observe(coupling_.void_fraction());
-  held_force_ = row_.exchange.force_on_grains;
-  row_.grains = host_.totals();
-  audit_.begin(row_.grains, case_.options.feedback);
-  energy_.begin(row_.grains);
-  note_gas_power(forces, grains);
-  host_.take_wall_impulse();
-  host_.take_largest_overlap();
+  row_.audit.grains = audit_.begin(row_.exchange);
+  audit_.note_gas_power(forces, grains);
   choose_next_interval();
   host_.print(scene_text({.gas = case_.gas,
                           .options = case_.options,
@@ -130,21 +126,12 @@ void CoupledRun::continue_run() {
     watch_bed();
     monitor_->observe(coupling_.void_fraction());
   }
-  applied_force_ = held_force_;  // the set-up of a run computes all forces anew
   start_clock();
   run_start_ = clock_;
 }
 
-// Velocity Verlet gives half of a step's force in that step and half in the next one.
 void CoupledRun::force_applied(double dem_step, const Vec3& force_sum) {
-  if (drag_follows_grains()) {
-    received_sum_ += 0.5 * dem_step * (applied_sum_ + force_sum);
-    applied_sum_ = force_sum;
-  } else {
-    audit_.add_received(0.5 * dem_step * (applied_force_ + held_force_));
-    applied_force_ = held_force_;
-    traffic_.force_applied(dem_step);
-  }
+  audit_.force_applied(dem_step, force_sum);
   elapsed_ += dem_step;
 }
 
@@ -154,15 +141,13 @@ bool CoupledRun::step_finished() {
 
 void CoupledRun::exchange(std::span<Vec3> forces, std::span<double> coefficients) {
   stop_dem_clock();
-  energy_.add_gas_work(0.5 * elapsed_ * (gas_power_ + host_.gas_power()));
+  audit_.note_gas_work(elapsed_);
   std::vector<GrainRecord> grains = host_.records();
   host_.add_carried(grains, elapsed_, given_interval());
   row_.exchange = coupling_.exchange(forces, grains, elapsed_);
   if (drag_follows_grains()) coupling_.coefficients_of(coefficients);
-  held_force_ = row_.exchange.force_on_grains;
-  audit_.add_exchange(row_.exchange);
-  traffic_.exchanged();
-  note_gas_power(forces, grains);
+  audit_.exchanged(row_.exchange);
+  audit_.note_gas_power(forces, grains);
   statistics_.grain_steps +=
       double(row_.exchange.grains_inside + row_.exchange.grains_outside) * steps_since_exchange_;
   steps_since_exchange_ = 0;
@@ -177,32 +162,6 @@ void CoupledRun::exchange(std::span<Vec3> forces, std::span<double> coefficients
   start_clock();
 }
 
-void CoupledRun::note_gas_power(std::span<const Vec3> forces,
-                                const std::vector<GrainRecord>& grains) {
-  gas_power_ = 0.0;
-  std::size_t n = 0;
-  for (const GrainRecord& grain : grains) gas_power_ += forces[n++].dot(grain.velocity);
-}
-
-// Since the last audit.
-double CoupledRun::time_of_passage(GrainTraffic::Moment moment, double dem_step) const {
-  const double half = moment == GrainTraffic::Moment::mid_step ? 0.5 * dem_step : 0.0;
-  return audit_.interval() + elapsed_ + half;
-}
-
-void CoupledRun::grain_appeared(GrainPassage passage, GrainTraffic::Moment moment,
-                                double dem_step) {
-  passage.time = time_of_passage(moment, dem_step);
-  traffic_.appeared(passage);
-}
-
-void CoupledRun::grain_left(GrainPassage passage, const Vec3& held, GrainTraffic::Moment moment,
-                            double dem_step) {
-  passage.time = time_of_passage(moment, dem_step);
-  // sums of forces that follow the grains know who is there
-  traffic_.left(passage, drag_follows_grains() ? Vec3(Vec3::Zero()) : held, moment);
-}
-
 void CoupledRun::observe_bed(const ExchangeReport& report) {
   const int axis = monitor_->vertical().axis;
   row_.time = coupling_.gas().time();
@@ -215,56 +174,17 @@ void CoupledRun::observe_bed(const ExchangeReport& report) {
   statistics_.note(row_.bed, report);
 }
 
-void CoupledRun::collect_from_host() {
-  wall_impulse_ += host_.take_wall_impulse();
-  const plugins::LargestOverlap overlap = host_.take_largest_overlap();
-  overlap_.length = std::max(overlap_.length, overlap.length);
-  overlap_.relative = std::max(overlap_.relative, overlap.relative);
-}
-
 void CoupledRun::audit() {
-  const int axis = monitor_->vertical().axis;
-  collect_from_host();
-  Vec3 received = std::exchange(received_sum_, Vec3::Zero());
-  MPI_Allreduce(MPI_IN_PLACE, received.data(), 3, MPI_DOUBLE, MPI_SUM, communicator_);
-  audit_.add_received(received);
-  row_.grains = host_.totals();
-  const TrafficSums traffic = traffic_.take(communicator_);
-  row_.balance = audit_.close(row_.grains, traffic, wall_impulse_, host_.gravity());
-  row_.energy = energy_.close(row_.grains, traffic, host_.gravity(), communicator_);
-  wall_impulse_.setZero();
-  const double weight = std::abs(row_.balance.grain_weight[axis]);
-  row_.momentum_residual =
-      weight > 0 ? row_.balance.residual[axis] / weight : row_.balance.residual[axis];
-  const double store = row_.energy.kinetic + row_.energy.rotation + row_.energy.elastic;
-  row_.heating =
-      store > 0 && !host_.walls_move() ? std::max(0.0, -row_.energy.dissipated) / store : 0.0;
-  row_.overlap = std::exchange(overlap_, {});
-  RunExtremes& extremes = statistics_.extremes;
-  extremes.overlap.length = std::max(extremes.overlap.length, row_.overlap.length);
-  extremes.overlap.relative = std::max(extremes.overlap.relative, row_.overlap.relative);
-  extremes.momentum_residual =
-      std::max(extremes.momentum_residual, std::abs(row_.momentum_residual));
-  extremes.heating = std::max(extremes.heating, row_.heating);
-  statistics_.note_energy(row_.energy, traffic);
+  row_.audit = audit_.close(monitor_->vertical().axis);
+  statistics_.note_audit(row_.audit);
 }
 
 // After the row is in the file: a run that stops shows the row that stopped it.
 void CoupledRun::judge() {
-  const ExchangeReport& exchange = row_.exchange;
-  const bool has_weight = row_.balance.grain_weight[monitor_->vertical().axis] != 0.0;
-  const AuditResiduals residuals{.momentum = has_weight ? row_.momentum_residual : 0.0,
-                                 .exchange = exchange.third_law_residual,
-                                 .pressure_force = exchange.pressure_residual,
-                                 .solid_volume = exchange.solid_volume_residual,
-                                 .divergence = exchange.divergence,
-                                 .heating = row_.heating};
-  const AuditCauses causes{.unmeasured_walls = host_.unmeasured_walls(),
-                           .unexplained_grains = row_.balance.unexplained_grains};
-  const AuditBounds& bounds = case_.options.audit;
-  for (const AuditViolation& violation : violations(bounds, residuals, causes)) {
+  for (const AuditViolation& violation :
+       audit_.violations(row_.audit, row_.exchange, monitor_->vertical().axis)) {
     const std::string message = text("audit at t = %.6g s: ", row_.time) + violation.text;
-    if (bounds.on_violation == OnViolation::stop) throw UserError(message);
+    if (case_.options.audit.on_violation == OnViolation::stop) throw UserError(message);
     if (statistics_.note_violation(violation.name)) {
       host_.print("WARNING: " + message + " (further ones of this kind are counted)\n");
     }
@@ -280,7 +200,7 @@ void CoupledRun::write_outputs(double time) {
     audit();
     row_.monitors = monitors_.take(
         coupling_, *monitor_, monitors_.wants_labels() ? host_.labels() : std::vector<double>());
-    statistics_.note_monitors(row_.time, row_.balance.interval, row_.monitors);
+    statistics_.note_monitors(row_.time, row_.audit.balance.interval, row_.monitors);
     if (files_) files_->add_row(series_values(row_, monitors_.names(), monitor_->vertical().axis));
     judge();
   }
@@ -303,7 +223,7 @@ void CoupledRun::pause() {
 
 // Under another name until it is complete: what is there under this one stays whole.
 void CoupledRun::save(const std::string& path) {
-  collect_from_host();
+  audit_.collect_from_host();
   const std::string partial = path + ".partial";
   Hdf5File file = Hdf5File::create(partial, communicator_);
   file.write_attribute("content", std::string(state_content));
@@ -349,30 +269,19 @@ void CoupledRun::visit_state(cfd::StateArchive& archive) {
   check_gas(archive);
   coupling_.visit_state(archive);
   audit_.visit_state(archive);
-  energy_.visit_state(archive);
-  traffic_.visit_state(archive);
-  archive.partial_sums("gas_power", {&gas_power_, 1});
-  archive.partial_sums("received_sum", {received_sum_.data(), 3});
   archive.number("given_interval", row_.exchange.interval);
   monitors_.visit_state(archive);
   statistics_.visit_state(archive);
   archive.number_of("exchange_dem_steps", interval_.dem_steps);
   archive.number_of("steps_since_exchange", steps_since_exchange_);
   archive.number("elapsed_since_exchange", elapsed_);
-  for (int d = 0; d < 3; ++d) {
-    const std::string axis(1, "xyz"[d]);
-    archive.number("held_force_" + axis, held_force_[d]);
-    archive.number("wall_impulse_" + axis, wall_impulse_[d]);
-  }
-  archive.number("overlap", overlap_.length);
-  archive.number("relative_overlap", overlap_.relative);
   archive.number("last_frame_time", last_frame_time_);
   archive.number("row_time", row_.time);
   archive.number("row_height", row_.bed.height);
   archive.number("row_pressure_drop", row_.bed.pressure_drop);
   archive.number("row_weight", row_.bed.weight);
   archive.number("row_weight_over_area", row_.weight_over_area);
-  archive.number("row_momentum_residual", row_.momentum_residual);
+  archive.number("row_momentum_residual", row_.audit.momentum_residual);
   if (!archive.restores()) return;
   row_.bed.time = row_.time;
   for (Schedule* schedule : {&series_schedule_, &frame_schedule_, &progress_schedule_})

@@ -23,9 +23,9 @@
 #include "cfd/probes.hpp"
 #include "coupling/bed_monitor.hpp"
 #include "coupling/dem_host.hpp"
-#include "coupling/energy_audit.hpp"
 #include "coupling/gas_coupling.hpp"
 #include "coupling/monitors.hpp"
+#include "coupling/run_audit.hpp"
 #include "coupling/run_files.hpp"
 #include "coupling/run_statistics.hpp"
 #include "coupling/shared/schedule.hpp"
@@ -37,13 +37,8 @@ struct SeriesRow {
   double time = 0.0;
   BedState bed;
   double weight_over_area = 0.0;  // Pa
-  MomentumBalance balance;
-  EnergyBalance energy;
-  double momentum_residual = 0.0;  // vertical, over the grains' weight
-  double heating = 0.0;            // energy from nowhere over kinetic and elastic energy
   ExchangeReport exchange;
-  GrainTotals grains;
-  plugins::LargestOverlap overlap;
+  AuditRow audit;                // since the row before
   std::vector<double> monitors;  // of Monitors::names()
 };
 
@@ -56,7 +51,7 @@ class CoupledRun {
   void begin(std::span<Vec3> forces, std::span<double> coefficients);
   bool begun() const { return begun_; }
   void continue_run();
-  void set_up(const Vec3& force_sum) { applied_sum_ = force_sum; }
+  void set_up(const Vec3& force_sum) { audit_.set_up(force_sum); }
   void force_applied(double dem_step, const Vec3& force_sum);
   bool step_finished();
   // Whether the next step_finished() will be true.
@@ -68,9 +63,13 @@ class CoupledRun {
   // Of the last exchange, s: over this the gas gave the forces of the grains.
   double given_interval() const { return row_.exchange.interval; }
   // `passage`.time is set here; `held` is the gas force on the grain, N.
-  void grain_appeared(GrainPassage passage, GrainTraffic::Moment moment, double dem_step);
-  void grain_left(GrainPassage passage, const Vec3& held, GrainTraffic::Moment moment,
-                  double dem_step);
+  void grain_appeared(const GrainPassage& passage, GrainTraffic::Moment moment, double dem_step) {
+    audit_.grain_appeared(passage, elapsed_, moment, dem_step);
+  }
+  void grain_left(const GrainPassage& passage, const Vec3& held, GrainTraffic::Moment moment,
+                  double dem_step) {
+    audit_.grain_left(passage, held, elapsed_, moment, dem_step);
+  }
   void finish_run();
   void pause();
   // Everything but the grains and the forces they hold, into or from an HDF5 file. The host takes
@@ -100,14 +99,11 @@ class CoupledRun {
   void watch_bed();
   void open_files(std::optional<double> continue_from);
   void label_grains();
-  void collect_from_host();
   void start_clock();
   void stop_dem_clock();
   void observe_bed(const ExchangeReport& report);
   void audit();
   void judge();
-  double time_of_passage(GrainTraffic::Moment moment, double dem_step) const;
-  void note_gas_power(std::span<const Vec3> forces, const std::vector<GrainRecord>& grains);
   void choose_next_interval();
   void write_outputs(double time);
   void write_frame(double time);
@@ -120,9 +116,7 @@ class CoupledRun {
   std::optional<BedMonitor> monitor_;  // from begin() on: gravity is known
   Monitors monitors_;
   std::optional<cfd::Probes> probes_;  // with files_
-  MomentumAudit audit_;
-  EnergyAudit energy_;
-  GrainTraffic traffic_;
+  RunAudit audit_;
   RunStatistics statistics_;
   std::string directory_;            // of the output, "": none
   std::unique_ptr<RunFiles> files_;  // from begin() or restore() on; null: no output directory
@@ -132,16 +126,9 @@ class CoupledRun {
   bool begun_ = false;
   CouplingInterval interval_;
   int steps_since_exchange_ = 0;
-  double elapsed_ = 0.0;               // s since the last exchange
-  Vec3 held_force_ = Vec3::Zero();     // N, sum over the grains
-  Vec3 applied_force_ = Vec3::Zero();  // the one in the integrator's present force
-  // The same on this rank when the drag follows the grains, and its impulse since the last audit.
-  Vec3 applied_sum_ = Vec3::Zero(), received_sum_ = Vec3::Zero();
-  double gas_power_ = 0.0;            // W, at the last exchange on this rank's grains then
-  Vec3 wall_impulse_ = Vec3::Zero();  // N s, of walls on grains, collected since the last audit
-  plugins::LargestOverlap overlap_;   // likewise
-  double last_frame_time_ = -1.0;     // s
-  double clock_ = 0.0;                // wall time at the start of the part under way
+  double elapsed_ = 0.0;           // s since the last exchange
+  double last_frame_time_ = -1.0;  // s
+  double clock_ = 0.0;             // wall time at the start of the part under way
   double run_start_ = 0.0;
 };
 

@@ -20,18 +20,14 @@ FixStyle(couple/gas,gasgrain::coupling::FixCoupleGas)
 #include <fix.h>
 
 #include <memory>
-#include <vector>
+#include <string>
 
 #include "coupling/coupled_run.hpp"
-#include "coupling/shared/gas_force.hpp"
-#include "liggghts_plugins/engine/held_force.hpp"
+#include "coupling/liggghts_host.hpp"
 
 namespace gasgrain::coupling {
 
-class FixCoupleGas : public LAMMPS_NS::Fix,
-                     public GasForceSource,
-                     public plugins::HeldForceFix,
-                     private DemHost {
+class FixCoupleGas : public LAMMPS_NS::Fix, public plugins::HeldForceFix {
  public:
   FixCoupleGas(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char** arguments);
   ~FixCoupleGas() override;
@@ -62,50 +58,18 @@ class FixCoupleGas : public LAMMPS_NS::Fix,
   int size_restart(int i) override;
   int maxsize_restart() override;
 
-  GasForce gas_force(int local_index) const override;
   plugins::HeldForces held_forces() const override;
   void held_forces_applied(const Vec3& sum) override;
   bool end_of_step_uses_atoms() const override { return run_->exchange_due(); }
 
  private:
-  double time() const override;
-  double step() const override;
-  Vec3 gravity() const override;
-  RunProgress progress() const override;
-  std::vector<std::string> unmeasured_walls() const override;
-  bool walls_move() const override;
-  std::vector<GrainRecord> records() const override;
-  void add_carried(std::vector<GrainRecord>& grains, double elapsed, double given) const override;
-  GrainState grain_state() const override;
-  void set_labels(const std::vector<double>& labels) override;
-  std::vector<double> labels() const override;
-  double gas_power() const override;
-  GrainTotals totals() const override;
-  GrainSizes sizes() const override;
-  Vec3 take_wall_impulse() override;
-  plugins::LargestOverlap take_largest_overlap() override;
-  void print(const std::string& text) override;
-
-  GrainPassage passage(int i) const;
   void tell_who_leaves(GrainTraffic::Moment moment);
   void check_host(const std::string& where) const;
-  template <class Visit>
-  void for_each_grain(Visit&& visit) const;
-  void hold(const std::vector<Vec3>& forces, const std::vector<double>& coefficients);
   Vec3 add_held_forces();
-  template <class Visit>
-  void for_each_value(int i, Visit&& visit);
 
-  MPI_Comm communicator_ = MPI_COMM_NULL;
+  std::unique_ptr<LiggghtsHost> host_;
   std::unique_ptr<CoupledRun> run_;
   std::string state_directory_;  // for states when no checkpoint is under way
-  int values_per_grain_ = 3;     // that move with the atom
-  // Per local atom. The gas force is held - coefficient * velocity.
-  std::vector<Vec3> held_;            // N
-  std::vector<double> coefficients_;  // kg/s; empty, as the next two, unless the drag follows
-  std::vector<Vec3> given_;           // N s, what the gas gave for the present forces
-  std::vector<Vec3> positions_;       // m, at the last exchange
-  std::vector<double> labels_;        // per local atom, only when a monitor wants them
 };
 
 }  // namespace gasgrain::coupling

@@ -101,7 +101,7 @@ std::string progress_text(const SeriesRow& row, const WallTimes& times, const Ru
   std::string out =
       text("t %.4f s  %3.0f %%  %s left | dp %.1f Pa  bed %.2f mm  overlap %.2g %% | ", row.time,
            100 * share, duration(remaining).c_str(), row.bed.pressure_drop, row.bed.height * 1e3,
-           100 * row.overlap.relative);
+           100 * row.audit.overlap.relative);
   out += percent_shares(times);
   if (row.exchange.grains_outside > 0) {
     out += text(" | %ld grains outside the gas grid", row.exchange.grains_outside);
@@ -174,14 +174,14 @@ std::string closing_text(const SeriesRow& row, const RunStatistics& statistics,
 std::vector<NamedValue> series_values(const SeriesRow& row,
                                       const std::vector<std::string>& monitors, int axis) {
   const ExchangeReport& exchange = row.exchange;
-  const MomentumBalance& balance = row.balance;
+  const MomentumBalance& balance = row.audit.balance;
   const double per_time = balance.interval > 0 ? 1.0 / balance.interval : 0.0;
   std::vector<NamedValue> values = {
       {"time", row.time},
       {"pressure_drop", row.bed.pressure_drop},
       {"bed_height", row.bed.height},
       {"weight_over_area", row.weight_over_area},
-      {"momentum_residual", row.momentum_residual},
+      {"momentum_residual", row.audit.momentum_residual},
       {"grain_momentum_rate", balance.grain_change[axis] * per_time},
       {"gas_momentum_rate", balance.gas_change[axis] * per_time},
       {"side_pressure_force", balance.side_pressure[axis] * per_time},
@@ -204,15 +204,15 @@ std::vector<NamedValue> series_values(const SeriesRow& row,
       {"grains_outside", double(exchange.grains_outside)},
       {"grain_passage", balance.passage[axis] * per_time},
       {"unexplained_grains", double(balance.unexplained_grains)},
-      {"kinetic_energy", row.energy.kinetic},
-      {"rotation_energy", row.energy.rotation},
-      {"potential_energy", row.energy.potential},
-      {"elastic_energy", row.energy.elastic},
-      {"gas_power", row.energy.gas_work * per_time},
-      {"dissipation", row.energy.dissipated * per_time},
-      {"heating", row.heating},
-      {"largest_overlap", row.overlap.length},
-      {"largest_relative_overlap", row.overlap.relative},
+      {"kinetic_energy", row.audit.energy.kinetic},
+      {"rotation_energy", row.audit.energy.rotation},
+      {"potential_energy", row.audit.energy.potential},
+      {"elastic_energy", row.audit.energy.elastic},
+      {"gas_power", row.audit.energy.gas_work * per_time},
+      {"dissipation", row.audit.energy.dissipated * per_time},
+      {"heating", row.audit.heating},
+      {"largest_overlap", row.audit.overlap.length},
+      {"largest_relative_overlap", row.audit.overlap.relative},
       {"interval", exchange.interval},
       {"gas_steps", double(exchange.gas_steps)},
       {"pressure_iterations", double(exchange.pressure_iterations)},
@@ -274,11 +274,16 @@ std::vector<Quantity> summary_quantities(const SeriesRow& row, const RunStatisti
        {},
        "by contacts, and stored by springs at walls and tangential ones; less work of moving "
        "walls"},
-      {"kinetic_energy", row.energy.kinetic, "J", {}, {}, "of the grains, last row"},
-      {"rotation_energy", row.energy.rotation, "J", {}, {}, "of the grains, last row"},
-      {"potential_energy", row.energy.potential, "J", {}, {}, "of the grains' weight, last row"},
+      {"kinetic_energy", row.audit.energy.kinetic, "J", {}, {}, "of the grains, last row"},
+      {"rotation_energy", row.audit.energy.rotation, "J", {}, {}, "of the grains, last row"},
+      {"potential_energy",
+       row.audit.energy.potential,
+       "J",
+       {},
+       {},
+       "of the grains' weight, last row"},
       {"elastic_energy",
-       row.energy.elastic,
+       row.audit.energy.elastic,
        "J",
        {},
        {},

@@ -1,6 +1,7 @@
 #include "coupling/run_statistics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "coupling/audit_bounds.hpp"
@@ -90,11 +91,16 @@ void RunStatistics::note(const BedState& bed, const ExchangeReport& report) {
   weight.push_back({bed.time, report.interval, bed.weight});
 }
 
-void RunStatistics::note_energy(const EnergyBalance& energy, const TrafficSums& traffic) {
-  gas_work += energy.gas_work;
-  dissipated += energy.dissipated;
-  appeared += traffic.appeared;
-  left += traffic.left;
+void RunStatistics::note_audit(const AuditRow& row) {
+  extremes.overlap.length = std::max(extremes.overlap.length, row.overlap.length);
+  extremes.overlap.relative = std::max(extremes.overlap.relative, row.overlap.relative);
+  extremes.momentum_residual =
+      std::max(extremes.momentum_residual, std::abs(row.momentum_residual));
+  extremes.heating = std::max(extremes.heating, row.heating);
+  gas_work += row.energy.gas_work;
+  dissipated += row.energy.dissipated;
+  appeared += row.traffic.appeared;
+  left += row.traffic.left;
 }
 
 void RunStatistics::note_monitors(double time, double interval, const std::vector<double>& values) {

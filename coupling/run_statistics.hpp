@@ -7,8 +7,7 @@
 
 #include "cfd/state_archive.hpp"
 #include "coupling/batch_means.hpp"
-#include "coupling/energy_audit.hpp"
-#include "coupling/momentum_audit.hpp"
+#include "coupling/run_audit.hpp"
 #include "liggghts_plugins/contact_statistics.hpp"
 
 namespace gasgrain::coupling {
@@ -35,7 +34,7 @@ struct RunExtremes {
   double third_law_residual = 0.0, pressure_residual = 0.0, solid_volume_residual = 0.0;
   double divergence = 0.0, removed_mean = 0.0;
   double momentum_residual = 0.0;  // vertical, over the weight; audited intervals
-  double heating = 0.0;            // likewise, see SeriesRow
+  double heating = 0.0;            // likewise, see AuditRow
   plugins::LargestOverlap overlap;
   double smallest_void_fraction = 1.0;
 
@@ -55,7 +54,7 @@ struct RunStatistics {
   void note(const BedState& bed, const ExchangeReport& report);
   // Values that hold for the `interval` [s] up to `time`.
   void note_monitors(double time, double interval, const std::vector<double>& values);
-  void note_energy(const EnergyBalance& energy, const TrafficSums& traffic);
+  void note_audit(const AuditRow& row);
   // True for the first of its kind.
   bool note_violation(const std::string& name) { return ++violations[name] == 1; }
   // All but the wall times.
