@@ -41,6 +41,8 @@ class FixCoupleGas : public LAMMPS_NS::Fix, public plugins::HeldForceFix {
   void post_run() override;
   double compute_vector(int index) override;
 
+  Vec3 cell_size() const { return run_->coupling().gas().decomposition().grid().spacing(); }  // m
+
   // The held force moves, is sorted and exchanged with the atom.
   void grow_arrays(int count) override;
   void copy_arrays(int from, int to, int) override;

@@ -1,14 +1,10 @@
-// gasgrain: LIGGGHTS with coarse grains, SDF walls and gas. Same command line as liggghts; --help
-// and
-// --version are ours.
+// gasgrain: LIGGGHTS with coarse grains, SDF walls and gas. Same command line as liggghts; --help,
+// --version and `estimate` are ours.
 #include <mpi.h>
-
-#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -20,10 +16,10 @@
 #include <signal_handling.h>
 #include <universe.h>
 
+#include "coupling/estimate_command.hpp"
 #include "coupling/fatal_error.hpp"
 #include "coupling/fix_couple_gas.h"
 #include "coupling/shared/error.hpp"
-#include "liggghts_plugins/estimate.hpp"
 #include "liggghts_plugins/register.hpp"
 
 namespace {
@@ -89,50 +85,16 @@ void print_on_first_rank(const std::string& text) {
   if (rank == 0) std::fputs(text.c_str(), stdout);
 }
 
-enum class Task { run, estimate };
-
-// Where the gas of an estimate writes; removed at its end.
-std::string scratch_directory() {
-  int process = static_cast<int>(getpid());
-  MPI_Bcast(&process, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  return (std::filesystem::temp_directory_path() / ("gasgrain-estimate-" + std::to_string(process)))
-      .string();
-}
-
-LAMMPS_NS::Fix* create_gas_of_estimate(LAMMPS* liggghts, int count, char** words) {
-  std::string option = "out", directory = scratch_directory();
-  std::vector<char*> changed;
-  for (int i = 0; i < count; ++i) {
-    if (words[i] == option)
-      ++i;
-    else
-      changed.push_back(words[i]);
-  }
-  changed.push_back(option.data());
-  changed.push_back(directory.data());
-  return new gasgrain::coupling::FixCoupleGas(liggghts, static_cast<int>(changed.size()),
-                                              changed.data());
-}
-
-void estimate(LAMMPS& liggghts) {
-  constexpr double seconds_per_run = 2.0;
-  gasgrain::plugins::prepare_estimate(liggghts, seconds_per_run);
-  gasgrain::plugins::register_fix(liggghts, "couple/gas", create_gas_of_estimate);
-  liggghts.input->file();
-  print_on_first_rank(gasgrain::plugins::estimate_text(liggghts));
-  MPI_Barrier(MPI_COMM_WORLD);
-  std::filesystem::remove_all(scratch_directory());
-}
-
-void run_script(int argc, char** argv, Task task) {
+template <class Task>
+void with_liggghts(const std::vector<std::string>& words, Task&& task) {
   gasgrain::coupling::FatalErrors errors(MPI_COMM_WORLD);
-  auto* liggghts = new LAMMPS(argc, argv, MPI_COMM_WORLD);
+  std::vector<std::string> kept = words;
+  std::vector<char*> arguments;
+  for (std::string& word : kept) arguments.push_back(word.data());
+  auto* liggghts = new LAMMPS(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
   try {
     register_all_styles(*liggghts);
-    if (task == Task::estimate)
-      estimate(*liggghts);
-    else
-      liggghts->input->file();
+    task(*liggghts);
   } catch (const gasgrain::UserError& error) {
     errors.end_program(error.what(), liggghts->logfile);
   } catch (const std::exception& error) {
@@ -142,21 +104,20 @@ void run_script(int argc, char** argv, Task task) {
   delete liggghts;
 }
 
-}  // namespace
-
-// `gasgrain estimate SCRIPT ...` as a silent run of the script.
-void estimate_script(int argc, char** argv) {
-  if (argc < 3) {
-    print_on_first_rank("usage: gasgrain estimate SCRIPT [options of liggghts]\n");
-    return;
+void estimate(const std::vector<std::string>& words) {
+  using namespace gasgrain::coupling;
+  EstimateArguments arguments;
+  try {
+    arguments = read_estimate_arguments(words[0], {words.begin() + 2, words.end()});
+  } catch (const gasgrain::UserError& error) {
+    FatalErrors(MPI_COMM_WORLD).end_program(error.what(), nullptr);
   }
-  std::vector<std::string> words = {argv[0],     "-in",  argv[2], "-screen",
-                                    "/dev/null", "-log", "none"};
-  words.insert(words.end(), argv + 3, argv + argc);
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  run_script(static_cast<int>(arguments.size()), arguments.data(), Task::estimate);
+  with_liggghts(arguments.liggghts, [&](LAMMPS& liggghts) {
+    print_on_first_rank(estimate_script(liggghts, arguments.gap));
+  });
 }
+
+}  // namespace
 
 int main(int argc, char** argv) {
   install_signal_handlers();
@@ -167,9 +128,9 @@ int main(int argc, char** argv) {
     describe_all_styles();
     print_on_first_rank(help_text());
   } else if (argc > 1 && std::strcmp(argv[1], "estimate") == 0) {
-    estimate_script(argc, argv);
+    estimate({argv, argv + argc});
   } else {
-    run_script(argc, argv, Task::run);
+    with_liggghts({argv, argv + argc}, [](LAMMPS& liggghts) { liggghts.input->file(); });
   }
   MPI_Finalize();
 }

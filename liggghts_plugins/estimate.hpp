@@ -5,6 +5,7 @@
 // dumps, restart files and checkpoints are left out.
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace LAMMPS_NS {  // NOLINT(readability-identifier-naming): the name of LIGGGHTS
@@ -21,7 +22,17 @@ void prepare_estimate(LAMMPS_NS::LAMMPS& lmp, double seconds);
 // since it happens once more after a `clear`.
 void replace_commands_for_estimate(LAMMPS_NS::LAMMPS& lmp);
 
+struct GasCells {
+  double size;  // of the longest edge, m
+};
+
+// What the script's own commands do not tell.
+struct EstimateContext {
+  double gap = 0.0;             // narrowest opening or thinnest layer, m; 0: not given
+  std::optional<GasCells> gas;  // of a script with gas
+};
+
 // The report, after the script; collective. Throws UserError when the script had no run.
-std::string estimate_text(LAMMPS_NS::LAMMPS& lmp);
+std::string estimate_text(LAMMPS_NS::LAMMPS& lmp, const EstimateContext& context);
 
 }  // namespace gasgrain::plugins

@@ -1,6 +1,9 @@
 """gasgrain estimate: numbers of a script whose answers are known, no files written, bad input."""
 
+import csv
+import pathlib
 import re
+import statistics
 import subprocess
 import unittest
 
@@ -27,10 +30,10 @@ def script(steps, n=3, step=STEP):
             f"run {steps}\nwrite_restart end.restart\n")
 
 
-def estimate(scene, text):
+def estimate(scene, text, *options):
     (scene.directory / "in.script").write_text(text)
-    return subprocess.run([GASGRAIN, "estimate", "in.script"], cwd=scene.directory, text=True,
-                          env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+    return subprocess.run([GASGRAIN, "estimate", "in.script", *options], cwd=scene.directory,
+                          text=True, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, timeout=120)
 
 
@@ -38,7 +41,66 @@ def number(pattern, text):
     return float(re.search(pattern, text).group(1))
 
 
+RESULTS = pathlib.Path(__file__).parents[1] / "bench" / "coarse_graining" / "results"
+GAS = """[grid]
+cells = [4, 4, 4]
+lower = [-1e-3, -1e-3, -1e-3]
+upper = [8e-3, 8e-3, 8e-3]
+[gas]
+density = 1.2
+viscosity = 1.8e-5
+[boundary]
+x_lower = {type = "slip"}
+x_upper = {type = "slip"}
+y_lower = {type = "slip"}
+y_upper = {type = "slip"}
+z_lower = {type = "inlet", superficial_velocity = 0.01}
+z_upper = {type = "outlet", pressure = 0}
+"""
+
+
+def measured_change(scene, quantity, ratio):
+    """Of the benchmark's rows at l = `ratio` against l = 1."""
+    lines = (RESULTS / f"{scene}.csv").read_text().splitlines()
+    rows = [row for row in csv.DictReader(lines) if row["status"] == "ok"
+            and not row["factor"]]
+    means = [statistics.mean(float(row[quantity]) for row in rows if row["l"] == str(l))
+             for l in (ratio, 1)]
+    return means[0] / means[1] - 1
+
+
 class Estimate(unittest.TestCase):
+    def test_grain_sizes_at_a_gap_change_what_the_benchmark_measured(self):
+        for scene, quantity, across, column in (("hopper", "rate", 16, 2),
+                                                ("column", "runout", 20, 3)):
+            done = estimate(bench(), script(10**5), "--gap", str(across * 2 * R0))
+            rows = {int(r[0]): r for r in (line.split() for line in done.stdout.splitlines())
+                    if len(r) in (4, 5) and r[0].isdigit()}
+            self.assertEqual(sorted(rows), list(range(1, 11)), done.stdout)
+            for ratio in (2, 3, 4):
+                with self.subTest(scene=scene, l=ratio):
+                    self.assertAlmostEqual(float(rows[ratio][1]), across / ratio, delta=0.01)
+                    self.assertAlmostEqual(float(rows[ratio][column]) / 100,
+                                           measured_change(scene, quantity, ratio), delta=0.02)
+            self.assertIn("*", rows[10])
+
+    def test_gap_is_checked(self):
+        for word in ("0", "-1", "wide", "nan"):
+            done = estimate(bench(), script(1000), "--gap", word)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(f"--gap is '{word}', but must be a length", done.stdout)
+
+    def test_gas_cells_over_the_grain_diameter(self):
+        scene = bench()
+        (scene.directory / "gas.toml").write_text(GAS)
+        done = estimate(scene, script(1000).replace(
+            "run 1000", "run 100\nfix gas all couple/gas case gas.toml\nrun 1000"))
+        self.assertEqual(done.returncode, 0, done.stdout)
+        ratios = re.search(r"Gas cells of .* l = 1 to 10:(.*)", done.stdout).group(1).split()
+        self.assertEqual(len(ratios), 10)
+        for l, ratio in enumerate(ratios, 1):
+            self.assertAlmostEqual(float(ratio) * 2 * R0 * l / (9e-3 / 4), 1, delta=0.01)
+
     def test_contact_time_grains_and_steps_of_every_ratio(self):
         for n, stretch in ((3, 1.0), (1, L)):
             with self.subTest(n=n):
