@@ -181,7 +181,6 @@ std::string gas_cell_text(const Stiffest& contact, const GasCells& gas) {
       text("Gas cells of %.4g m over the grain diameter, for l = 1 to 10:", gas.size);
   for (int l = 1; l <= ratios_shown; ++l) line += text(" %.3g", gas.size / (original * l));
   return line + "\n  about 1.25 is the rule of docs/choosing.md; smaller cells cost time\n";
-  below 1 cells cost time and add no detail\n ";
 }
 
 std::string gap_text(const Stiffest& contact, double gap) {
