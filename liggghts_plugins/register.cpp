@@ -32,7 +32,7 @@ void describe_plugin_styles() {
                   "the same law against the walls of stock LIGGGHTS", "docs/script_commands.md"});
   describe_style({"fix ID group wall/sdf body FILE.h5 | case CASE.toml body NAME type T",
                   "wall from a signed distance field", "docs/script_commands.md"});
-  describe_style({"gasgrain_engine off|auto|fused [kernel NAME]",
+  describe_style({"gasgrain_engine off|auto|fused [precision full|mixed] [kernel NAME]",
                   "whether grains are moved by the fused engine or by LIGGGHTS's own loop",
                   "docs/engine.md"});
   describe_style({"gasgrain_checkpoint N DIR | off",

@@ -23,7 +23,7 @@ void make_room(std::vector<Entry>& entries, std::size_t count) {
 
 }  // namespace
 
-void ContactList::start(int local_count, int dummy, PairCounts room) {
+void ContactList::start(int local_count, int dummy, PairCounts room, Precision precision) {
   local_count_ = local_count;
   dummy_ = dummy;
   widest_pair_ = 0;
@@ -38,16 +38,30 @@ void ContactList::start(int local_count, int dummy, PairCounts room) {
   near_second_.clear();
   near_candidate_.clear();
   touched_.clear();
-  springs_.clear();
+  if (precision == Precision::full && !std::holds_alternative<Springs<double>>(springs_))
+    springs_ = Springs<double>();
+  if (precision == Precision::mixed && !std::holds_alternative<Springs<float>>(springs_))
+    springs_ = Springs<float>();
   touching_.clear();
-  make_room(springs_, room.touching);
+  std::visit(
+      [&](auto& springs) {
+        springs.clear();
+        make_room(springs, room.touching);
+      },
+      springs_);
   make_room(touching_, room.touching);
 }
 
 void ContactList::add_touching(int candidate, const double* spring) {
   GASGRAIN_ASSERT(touching_.empty() || touching_.back() < candidate);
   touching_.push_back(candidate);
-  springs_.push_back({{spring[0], spring[1], spring[2]}, 0.0});
+  std::visit(
+      [&]<class Real>(Springs<Real>& springs) {
+        springs.push_back({{static_cast<Real>(spring[0]), static_cast<Real>(spring[1]),
+                            static_cast<Real>(spring[2])},
+                           0});
+      },
+      springs_);
 }
 
 void ContactList::end_row() {
@@ -101,56 +115,69 @@ void ContactList::pad_to_group() {
   }
 }
 
-// Springs of touching pairs move to the front.
 void ContactList::keep_touching() {
   if (touched_.empty()) return;  // they are there: the list has just been loaded
-  visit_touching([this](int candidate, const double* spring) {
-    std::copy_n(spring, 3, springs_[touching_.size()].displacement);
-    touching_.push_back(candidate);
+  std::visit([this](auto& springs) { gather_springs(springs); }, springs_);
+}
+
+// Springs of touching pairs move to the front.
+template <class Real>
+void ContactList::gather_springs(Springs<Real>& springs) {
+  for_touching([&](std::size_t p) {
+    springs[touching_.size()] = springs[p];
+    touching_.push_back(near_candidate_[p]);
   });
-  springs_.resize(touching_.size());
+  springs.resize(touching_.size());
+}
+
+void ContactList::restore_touching() {
+  std::visit([this](auto& springs) { spread_springs(springs); }, springs_);
 }
 
 // And on to their places in the new list; a pair that is not near any more has parted since.
-void ContactList::restore_touching() {
+template <class Real>
+void ContactList::spread_springs(Springs<Real>& springs) {
   touched_.assign(near_first_.size() / group_size, 0);
   std::size_t kept = 0, p = 0;
   for (std::size_t n = 0; n < touching_.size(); ++n) {
     while (p < near_candidate_.size() && near_candidate_[p] < touching_[n]) ++p;
     if (p == near_candidate_.size()) break;
     if (near_candidate_[p] != touching_[n]) continue;
-    springs_[kept] = springs_[n];
+    springs[kept] = springs[n];
     touching_[kept++] = static_cast<int>(p);
     touched_[p / group_size] |= static_cast<unsigned char>(1u << (p % group_size));
   }
-  springs_.resize(kept);
-  make_room(springs_, near_first_.size());
-  springs_.resize(near_first_.size());
+  springs.resize(kept);
+  make_room(springs, near_first_.size());
+  springs.resize(near_first_.size());
   while (kept-- > 0) {  // from the end: places are never before those in front
     const int place = touching_[kept];
     if (place == static_cast<int>(kept)) continue;
-    springs_[place] = springs_[kept];
-    springs_[kept] = {};
+    springs[place] = springs[kept];
+    springs[kept] = {};
   }
   touching_.clear();
 }
 
 void ContactList::add_contact_loads(int block, ContactBatch batch, const PairModel& model,
                                     bool uniform) {
-  const ContactKernel& kernel = contact_kernel();
   const PairRange pairs{near_first_.data(), near_second_.data(), near_begin_[block],
                         near_begin_[block + 1]};
   places_.resize(pairs.end - pairs.begin + 2 * group_size);
-  batch.count =
-      kernel.touching_pairs(batch.grains, pairs, touched_.data(), springs_.data(), places_.data());
-  if (batch.count == 0) return;
-  batch.first = near_first_.data();
-  batch.second = near_second_.data();
-  batch.springs = springs_.data();
-  batch.coefficients = coefficients_.data();
-  batch.contacts = places_.data();
-  batch.dummy = near_begin_.back();
-  kernel.contact_loads(batch, model, uniform);
+  std::visit(
+      [&]<class Real>(Springs<Real>& springs) {
+        const ForceKernel<Real>& forces = force_kernel<Real>(contact_kernel());
+        batch.count = forces.touching_pairs(batch.grains, pairs, touched_.data(), springs.data(),
+                                            places_.data());
+        if (batch.count == 0) return;
+        batch.first = near_first_.data();
+        batch.second = near_second_.data();
+        batch.coefficients = coefficients_.data();
+        batch.contacts = places_.data();
+        batch.dummy = near_begin_.back();
+        forces.contact_loads(batch, springs.data(), model, uniform);
+      },
+      springs_);
 }
 
 }  // namespace gasgrain::plugins

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <variant>
 #include <vector>
 
 #include "liggghts_plugins/engine/kernel.hpp"
@@ -25,7 +26,8 @@ class ContactList {
   // add_touching() for those it touches, in the order of candidates.
   // `dummy` and dummy + 1 are indices of two grains that never touch. Room is
   // made for that many pairs.
-  void start(int local_count, int dummy, PairCounts room = {});
+  void start(int local_count, int dummy, PairCounts room = {},
+             Precision precision = Precision::full);
   void add_candidate(int second) { candidate_second_.push_back(second); }
   void add_touching(int candidate, const double* spring);
   void end_row();
@@ -52,22 +54,41 @@ class ContactList {
   // three values in m. After choose_near_pairs().
   template <class Visit>
   void visit_touching(Visit visit) const {
-    for (std::size_t group = 0; group < touched_.size(); ++group)
-      for (unsigned set = touched_[group]; set; set &= set - 1u) {
-        const std::size_t p = group * group_size + __builtin_ctz(set);
-        visit(near_candidate_[p], springs_[p].displacement);
-      }
+    std::visit(
+        [&](const auto& springs) {
+          for_touching([&](std::size_t p) {
+            const auto& s = springs[p].displacement;
+            const double spring[3] = {s[0], s[1], s[2]};
+            visit(near_candidate_[p], spring);
+          });
+        },
+        springs_);
   }
 
   int block_count() const { return static_cast<int>(near_begin_.size()) - 1; }
-  // Finds the contacts of a block's grains and adds their loads.
+  // Finds the contacts of a block's grains and adds their loads. `uniform`: all grains are alike.
   void add_contact_loads(int block, ContactBatch batch, const PairModel& model, bool uniform);
 
  private:
+  template <class Real>
+  using Springs = std::vector<SpringRecord<Real>>;
+
+  // Calls visit(p) for the near pairs that touch, in their order.
+  template <class Visit>
+  void for_touching(Visit visit) const {
+    for (std::size_t group = 0; group < touched_.size(); ++group)
+      for (unsigned set = touched_[group]; set; set &= set - 1u)
+        visit(group * group_size + __builtin_ctz(set));
+  }
+
   void keep_touching();
+  template <class Real>
+  void gather_springs(Springs<Real>& springs);
   void find_near_pairs(const GrainRecord* grains, double margin);
   void pad_to_group();
   void restore_touching();
+  template <class Real>
+  void spread_springs(Springs<Real>& springs);
 
   int local_count_ = 0;
   int dummy_ = 0;
@@ -79,7 +100,7 @@ class ContactList {
   std::vector<int> near_first_, near_second_, near_candidate_;
   std::vector<unsigned char> touched_;  // a bit per near pair
   // Of near pairs; while these are chosen anew, of the candidates in touching_.
-  std::vector<SpringRecord> springs_;
+  std::variant<Springs<double>, Springs<float>> springs_;
   std::vector<int> touching_;
   std::vector<PairCoefficients> coefficients_;
 

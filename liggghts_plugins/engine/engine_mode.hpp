@@ -1,6 +1,8 @@
-// The command `gasgrain_engine off|auto|fused [kernel avx512|avx2|generic]` and the installation of
-// the fused time integrator.
+// The command `gasgrain_engine off|auto|fused [precision full|mixed] [kernel avx512|avx2|generic]`
+// and the installation of the fused time integrator.
 #pragma once
+
+#include "liggghts_plugins/engine/records.hpp"
 
 namespace LAMMPS_NS {  // NOLINT(readability-identifier-naming): the name of LIGGGHTS
 class LAMMPS;
@@ -14,9 +16,15 @@ enum class EngineMode {
   fused       // an error where it is not
 };
 
-EngineMode& engine_mode(LAMMPS_NS::LAMMPS& lmp);
+struct EngineSettings {
+  EngineMode mode = EngineMode::automatic;
+  Precision precision = Precision::full;  // of the fused engine
+};
 
-// The command; throws UserError for anything but off, auto or fused.
+const EngineSettings& engine_settings(const LAMMPS_NS::LAMMPS& lmp);
+
+// The command; throws UserError for anything but the above. What is not stated is as by default,
+// but a kernel once chosen stays.
 void set_engine_mode(LAMMPS_NS::LAMMPS* lmp, int argument_count, char** arguments);
 
 // Makes the fused integrator that of the next run, unless the mode is off or the script chose

@@ -58,7 +58,7 @@ bool any_matches(LAMMPS_NS::Compute* const* computes, int count, bigint step) {
 void FusedVerlet::setup() {
   plan();
   print_plan();
-  if (engine_mode(*lmp) == EngineMode::fused && !plan_.fused())
+  if (engine_settings(*lmp).mode == EngineMode::fused && !plan_.fused())
     throw UserError("gasgrain_engine fused: " + plan_.text());
   std::optional<WideBins> bins;
   if (plan_.fused()) bins.emplace(*lmp);
@@ -67,11 +67,11 @@ void FusedVerlet::setup() {
 }
 
 void FusedVerlet::plan() {
-  if (engine_mode(*lmp) == EngineMode::off) {
+  if (engine_settings(*lmp).mode == EngineMode::off) {
     plan_ = {};
     plan_.obstacles = {"gasgrain_engine off"};
   } else {
-    plan_ = plan_scene(*lmp);
+    plan_ = plan_scene(*lmp, engine_settings(*lmp).precision);
   }
   planned_ = true;
 }

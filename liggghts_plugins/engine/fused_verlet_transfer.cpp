@@ -48,7 +48,7 @@ const LAMMPS_NS::NeighList* FusedVerlet::history_list() const {
 
 void FusedVerlet::load_grains() {
   const GrainCounts counts{atom->nlocal, atom->nghost};
-  loop_.start(counts, *plan_.pair, count_pairs(pair_list(), history_list()));
+  loop_.start(counts, *plan_.pair, count_pairs(pair_list(), history_list()), plan_.precision);
   load_state();
   streams_.load(*lmp, plan_.streams.empty() ? nullptr : plan_.streams.front(), update->ntimestep);
   streams_.hold(loop_, update->ntimestep);

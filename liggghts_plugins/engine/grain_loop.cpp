@@ -12,7 +12,8 @@ constexpr double near_share = 0.3;
 
 }  // namespace
 
-void GrainLoop::start(GrainCounts counts, const PairLaw& law, PairCounts room) {
+void GrainLoop::start(GrainCounts counts, const PairLaw& law, PairCounts room,
+                      Precision precision) {
   counts_ = counts;
   law_ = &law;
   const int size = counts.total() + 2;
@@ -27,7 +28,7 @@ void GrainLoop::start(GrainCounts counts, const PairLaw& law, PairCounts room) {
   const PairMember point{.type = 1, .mass = 1.0, .radius = 0.0, .frozen = false};
   for (int n = counts.total(); n < size; ++n)
     set_grain(n, {places[n - counts.total()], at_rest, at_rest, point, false});
-  pairs_.start(counts.local, counts.total(), room);
+  pairs_.start(counts.local, counts.total(), room, precision);
 }
 
 void GrainLoop::set_grain(int i, const GrainState& state) {
@@ -103,7 +104,6 @@ void GrainLoop::force_pass(const PassSettings& settings, const Observer* observe
                               .spins = spins_.data(),
                               .first = nullptr,
                               .second = nullptr,
-                              .springs = nullptr,
                               .coefficients = nullptr,
                               .ring = ring_,
                               .contacts = nullptr,

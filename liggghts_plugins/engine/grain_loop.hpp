@@ -55,7 +55,7 @@ class GrainLoop {
   // Called for every local grain with its contact load, before integration.
   using Observer = std::function<void(int grain, const LoadRecord& load)>;
 
-  void start(GrainCounts counts, const PairLaw& law, PairCounts room);
+  void start(GrainCounts counts, const PairLaw& law, PairCounts room, Precision precision);
   void set_grain(int i, const GrainState& state);
   ContactList& pairs() { return pairs_; }
   std::vector<WallContacts>& walls() { return walls_; }
@@ -86,7 +86,7 @@ class GrainLoop {
 
  private:
   void note_member(int i, const PairMember& member);
-  // All pairs have the same coefficients.
+  // All grains are alike, and all pairs have the same coefficients.
   bool uniform() const { return members_.size() == 1; }
   const PairMember& member(int i) const { return members_[uniform() ? 0 : i]; }
   void size_ring();

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
 
 #include "liggghts_plugins/engine/pair_law.hpp"
 #include "liggghts_plugins/engine/records.hpp"
@@ -30,9 +31,8 @@ struct LoadRing {
 struct ContactBatch {
   const GrainRecord* grains;
   const SpinRecord* spins;
-  const int* first;   // of all pairs of the list
-  const int* second;  // of all pairs of the list
-  SpringRecord* springs;
+  const int* first;                      // of all pairs of the list
+  const int* second;                     // of all pairs of the list
   const PairCoefficients* coefficients;  // one per pair of the list, or a single one
   LoadRing ring;
   int* contacts;  // places in the list; may be written up to one group beyond the end
@@ -58,21 +58,36 @@ struct IntegrationBatch {
   double gas_force[3];  // N, sum of held forces and drag so far; updated when there is drag
 };
 
+// What depends on the precision of forces and springs.
+template <class Real>
+struct ForceKernel {
+  // As ContactKernel::near_pairs for touching pairs of whole groups, with memory: `touched` holds a
+  // bit per pair, and springs of pairs that have parted are set to zero.
+  int (*touching_pairs)(const GrainRecord*, const PairRange&, unsigned char* touched,
+                        SpringRecord<Real>* springs, int* places);
+  // Adds the loads of the contacts to the ring and advances the springs of the list. `uniform`: all
+  // grains are alike.
+  void (*contact_loads)(ContactBatch&, SpringRecord<Real>* springs, const PairModel&, bool uniform);
+};
+
 struct ContactKernel {
   const char* name;
   // Writes the places of pairs whose surfaces are nearer than `margin` (m); returns their number.
   // `places` has room for the range and one group more.
   int (*near_pairs)(const GrainRecord*, const PairRange&, double margin, int* places);
-  // The same for touching pairs of whole groups, with memory: `touched` holds a bit per pair, and
-  // springs of pairs that have parted are set to zero.
-  int (*touching_pairs)(const GrainRecord*, const PairRange&, unsigned char* touched,
-                        SpringRecord* springs, int* places);
-  // Adds the loads of the contacts to the ring and advances their springs. `uniform`: all pairs
-  // have the same coefficients.
-  void (*contact_loads)(ContactBatch&, const PairModel&, bool uniform);
+  ForceKernel<double> full;
+  ForceKernel<float> mixed;
   // v += a kick, x += v drift for the block, and sets its loads to zero.
   void (*integrate)(IntegrationBatch&);
 };
+
+template <class Real>
+const ForceKernel<Real>& force_kernel(const ContactKernel& kernel) {
+  if constexpr (std::is_same_v<Real, double>)
+    return kernel.full;
+  else
+    return kernel.mixed;
+}
 
 // The best one for this processor, unless another one was chosen.
 const ContactKernel& contact_kernel();

@@ -27,10 +27,16 @@ struct alignas(64) LoadRecord {
   double torque[4];  // N m
 };
 
-struct alignas(32) SpringRecord {
-  double displacement[3];  // tangential, m
-  double unused;
+// Real: double, or float in mixed precision.
+template <class Real>
+struct alignas(4 * sizeof(Real)) SpringRecord {
+  Real displacement[3];  // tangential, m
+  Real unused;
 };
+
+// Precision of contact forces and springs. Positions, radii, velocities, the test for contact, the
+// sums of loads and the integration are always in double.
+enum class Precision { full, mixed };
 
 // Coefficients of the contact law of one pair (contact_law.hpp).
 struct alignas(64) PairCoefficients {

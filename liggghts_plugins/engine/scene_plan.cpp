@@ -246,8 +246,9 @@ std::string ScenePlan::text() const {
       reasons += (reasons.empty() ? "" : ", ") + obstacle;
     return "Engine: stock time integration, because of " + reasons;
   }
-  std::string text =
-      "Engine: fused: " + pair->name() + " tangential " + tangential_name(pair->model().tangential);
+  std::string text = std::string("Engine: fused") +
+                     (precision == Precision::mixed ? ", mixed precision" : "") + ": " +
+                     pair->name() + " tangential " + tangential_name(pair->model().tangential);
   for (const LAMMPS_NS::Fix* fix : after_contacts) text += std::string(", ") + fix->style;
   if (!walls.empty()) text += ", wall/sdf x " + std::to_string(walls.size());
   if (!primitive_walls.empty())
@@ -257,8 +258,10 @@ std::string ScenePlan::text() const {
   return text + ", nve/sphere";
 }
 
-ScenePlan plan_scene(LAMMPS& lmp) {
-  return Planner(lmp).plan();
+ScenePlan plan_scene(LAMMPS& lmp, Precision precision) {
+  ScenePlan plan = Planner(lmp).plan();
+  plan.precision = precision;
+  return plan;
 }
 
 }  // namespace gasgrain::plugins

@@ -23,6 +23,7 @@ struct ScenePlan {
   // What is not understood, by style as in the script; empty: the scene is fused.
   std::vector<std::string> obstacles;
 
+  Precision precision = Precision::full;  // of the fused engine
   std::shared_ptr<const PairLaw> pair;
   std::vector<FixWallSdf*> walls;  // in the order of the script
   std::vector<LAMMPS_NS::FixWallGran*> primitive_walls;
@@ -50,6 +51,6 @@ struct ScenePlan {
 };
 
 // To be called after LAMMPS::init(), which sets up styles and their lists.
-ScenePlan plan_scene(LAMMPS_NS::LAMMPS& lmp);
+ScenePlan plan_scene(LAMMPS_NS::LAMMPS& lmp, Precision precision);
 
 }  // namespace gasgrain::plugins

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -17,14 +18,20 @@ namespace {
 constexpr PairCoefficients law = {
     .k = 1000, .eta = 0.02, .k_t = 700, .eta_t = 0.01, .mu = 0.3, .unused = {}};
 
+struct CrowdOptions {
+  double radius_spread = 0.1;  // m; 0: grains are alike
+  Precision precision = Precision::full;
+};
+
 // A crowd of overlapping and separate spheres; all pairs are candidates.
 struct Crowd {
-  explicit Crowd(int count, double side) {
+  explicit Crowd(int count, double side, CrowdOptions options = {})
+      : uniform(options.radius_spread == 0.0) {
     std::mt19937 numbers(3);
     std::uniform_real_distribution<double> place(0.0, side), speed(-1.0, 1.0);
     for (int i = 0; i < count; ++i) {
       grains.push_back({{place(numbers), place(numbers), place(numbers)},
-                        0.5 + 0.1 * speed(numbers),
+                        0.5 + options.radius_spread * speed(numbers),
                         {speed(numbers), speed(numbers), speed(numbers)},
                         1.0});
       spins.push_back({{speed(numbers), speed(numbers), speed(numbers)}, 1.0});
@@ -33,7 +40,7 @@ struct Crowd {
       grains.push_back({{x, 0, 0}, 0.0, {0, 0, 0}, 1.0});
       spins.push_back({{0, 0, 0}, 1.0});
     }
-    list.start(count, count);
+    list.start(count, count, {}, options.precision);
     for (int i = 0; i < count; ++i) {
       for (int j = i + 1; j < count; ++j) list.add_candidate(j);
       list.end_row();
@@ -46,7 +53,7 @@ struct Crowd {
 
   int count() const { return static_cast<int>(grains.size()) - 2; }
   void choose(double margin) {
-    list.choose_near_pairs(grains.data(), margin, true, [](int, int) { return law; });
+    list.choose_near_pairs(grains.data(), margin, uniform, [](int, int) { return law; });
   }
   void add_loads(TangentialModel tangential, double slip_time) {
     const PairModel model{.normal = NormalModel::linear,
@@ -58,7 +65,6 @@ struct Crowd {
                               .spins = spins.data(),
                               .first = nullptr,
                               .second = nullptr,
-                              .springs = nullptr,
                               .coefficients = nullptr,
                               .ring = ring,
                               .contacts = nullptr,
@@ -67,7 +73,7 @@ struct Crowd {
                               .slip_time = slip_time,
                               .least_normal_force = model.least_normal_force,
                               .largest = largest},
-                             model, true);
+                             model, uniform);
   }
   double gap(int i, int j) const {
     return (position(i) - position(j)).norm() - grains[i].radius - grains[j].radius;
@@ -85,6 +91,7 @@ struct Crowd {
   }
   Vec3 position(int i) const { return Vec3(grains[i].position); }
 
+  bool uniform;
   std::vector<GrainRecord> grains;
   std::vector<SpinRecord> spins;
   ContactList list;
@@ -161,32 +168,95 @@ void add_reference(std::vector<Vec3>& force, std::vector<Vec3>& torque, const Cr
   torque[j] += lever_j * on_i.moment;
 }
 
-TEST(ContactKernel, adds_the_loads_of_the_contact_law) {
-  // one block, so that no slot of the ring is used twice; slip large enough for some to slide
+// Largest difference of the kernel's loads from the scalar law, and of its largest overlap. One
+// block, so that no slot of the ring is used twice; slip large enough for some to slide.
+struct Difference {
+  double load = 0, overlap = 0;
+};
+Difference from_scalar_law(const CrowdOptions& options) {
+  Crowd crowd(grains_per_block, 6.0, options);
+  const double slip_time = 0.05;
+  crowd.choose(0.1);
+  crowd.add_loads(TangentialModel::history, slip_time);
+  std::vector<Vec3> force(crowd.count(), Vec3::Zero()), torque = force;
+  double overlap = 0;
+  for (int i = 0; i < crowd.count(); ++i)
+    for (int j = i + 1; j < crowd.count(); ++j)
+      if (crowd.gap(i, j) < 0) {
+        add_reference(force, torque, crowd, i, j, slip_time);
+        overlap = std::max(overlap, -crowd.gap(i, j));
+      }
+  Difference largest{0, std::abs(crowd.largest[0] - overlap)};
+  for (int i = 0; i < crowd.count(); ++i)
+    largest.load = std::max({largest.load, (Vec3(crowd.loads[i].force) - force[i]).norm(),
+                             (Vec3(crowd.loads[i].torque) - torque[i]).norm()});
+  return largest;
+}
+
+// Those that this processor can run, one after the other.
+template <class Check>
+void with_every_kernel(Check check) {
   for (const char* name : {"generic", "avx2", "avx512"}) {
     try {
       choose_contact_kernel(name);
     } catch (const std::exception&) {
-      continue;  // not on this processor
+      continue;
     }
-    Crowd crowd(grains_per_block, 6.0);
-    const double slip_time = 0.05;
-    crowd.choose(0.1);
-    crowd.add_loads(TangentialModel::history, slip_time);
-    std::vector<Vec3> force(crowd.count(), Vec3::Zero()), torque = force;
-    double overlap = 0;
-    for (int i = 0; i < crowd.count(); ++i)
-      for (int j = i + 1; j < crowd.count(); ++j)
-        if (crowd.gap(i, j) < 0) {
-          add_reference(force, torque, crowd, i, j, slip_time);
-          overlap = std::max(overlap, -crowd.gap(i, j));
-        }
-    for (int i = 0; i < crowd.count(); ++i) {
-      EXPECT_LT((Vec3(crowd.loads[i].force) - force[i]).norm(), 1e-10) << name << " " << i;
-      EXPECT_LT((Vec3(crowd.loads[i].torque) - torque[i]).norm(), 1e-10) << name << " " << i;
-    }
-    EXPECT_NEAR(crowd.largest[0], overlap, 1e-14);
+    SCOPED_TRACE(name);
+    check();
   }
+}
+
+TEST(ContactKernel, adds_the_loads_of_the_contact_law) {
+  with_every_kernel([] {
+    for (const double spread : {0.0, 0.1}) {
+      const Difference full = from_scalar_law({spread, Precision::full});
+      EXPECT_LT(full.load, 1e-10) << spread;
+      EXPECT_LT(full.overlap, 1e-14) << spread;
+    }
+  });
+}
+
+TEST(ContactKernel, mixed_precision_is_that_of_float) {
+  with_every_kernel([] {
+    for (const double spread : {0.0, 0.1}) {
+      // loads of a crowd are sums of about ten forces of some hundred N
+      const Difference mixed = from_scalar_law({spread, Precision::mixed});
+      EXPECT_LT(mixed.load, 1e-3) << spread;
+      EXPECT_LT(mixed.overlap, 1e-7) << spread;
+      EXPECT_GT(mixed.load, 1e-7) << spread << ": not in single precision";
+    }
+  });
+}
+
+TEST(ContactKernel, a_slight_overlap_keeps_its_digits_in_mixed_precision) {
+  const double overlap = 1e-6;  // of a radius of 0.5
+  Crowd crowd(2, 1.0, {0.0, Precision::mixed});
+  for (int d = 0; d < 3; ++d)
+    crowd.grains[1].position[d] = crowd.grains[0].position[d] + (1.0 - overlap) / std::sqrt(3.0);
+  for (int i : {0, 1}) crowd.grains[i].velocity[0] = crowd.grains[i].velocity[1] = 0.0;
+  for (int i : {0, 1}) crowd.grains[i].velocity[2] = 0.0;
+  crowd.choose(0.1);
+  crowd.add_loads(TangentialModel::off, 0.0);
+  EXPECT_NEAR(Vec3(crowd.loads[0].force).norm(), law.k * overlap, 1e-6 * law.k * overlap);
+}
+
+TEST(ContactKernel, mixed_precision_conserves_momentum_to_round_off_of_double) {
+  with_every_kernel([] {
+    for (const double spread : {0.0, 0.1}) {
+      Crowd crowd(grains_per_block, 6.0, {spread, Precision::mixed});
+      crowd.choose(0.1);
+      crowd.add_loads(TangentialModel::history, 0.05);
+      Vec3 sum = Vec3::Zero();
+      double turnover = 0;
+      for (int i = 0; i < crowd.count(); ++i) {
+        sum += Vec3(crowd.loads[i].force);
+        turnover += Vec3(crowd.loads[i].force).norm();
+      }
+      EXPECT_GT(turnover, 1e3);
+      EXPECT_LT(sum.norm(), 1e-14 * turnover) << spread;
+    }
+  });
 }
 
 TEST(ContactKernel, integrates_as_velocity_verlet) {

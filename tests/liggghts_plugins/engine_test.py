@@ -326,7 +326,7 @@ class Plan(EngineTest):
     def test_unknown_mode(self):
         _, run = self.run_mode("on", "", check=False)
         self.assertNotEqual(run.code, 0)
-        self.assertIn("off, auto or fused", run.text)
+        self.assertIn("auto, fused, off", run.text)
 
     def test_run_style_keeps_the_engine(self):
         _, run = self.run_mode("auto", "run_style verlet\n")

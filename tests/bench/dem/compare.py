@@ -16,12 +16,16 @@ Programs:
     unchanged  gasgrain with the script of `primitive`, fused
     cgm        gasgrain, our law and SDF walls, engine off
     fused      the same, fused
+    mixed      the same in mixed precision
 They run one after the other in every repetition; the table gives medians of wall nanoseconds per
-grain and step, and the largest resident size of the last program (all ranks) per grain. Table and
-plot also go to the output directory.
+grain and step, how many times less that is than in stock LIGGGHTS (the faster of its scripts) and
+LAMMPS, and the largest resident size of all ranks per grain. Table and plot also go to the output
+directory. With the default scene, states and programs the medians are stored in results/ and the
+page docs/engine_cost.md is made anew from all that are stored.
 """
 
 import argparse
+import csv
 import pathlib
 import statistics
 import tempfile
@@ -30,7 +34,12 @@ import scene as scenes
 from settled_bed import read_bed, settled
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-TARGETS = {"A": 5, "B": 3, "C": 3}  # times the faster stock LIGGGHTS
+RESULTS = pathlib.Path(__file__).resolve().parent / "results"
+PAGE = ROOT / "docs" / "engine_cost.md"
+PROGRAMS = ("stock", "lammps", "unchanged", "fused", "mixed")
+# Times faster than LIGGGHTS and LAMMPS, in states A, B, C
+TARGETS = {"fused": ("5 / 3 / 3", "6 / 3.5 / 3.5"), "mixed": ("6.5 / 4 / 4", "-")}
+REFERENCES = {"liggghts": ("stock", "primitive"), "lammps": ("lammps",)}
 
 
 def measure(scene, bed, state, given):
@@ -52,19 +61,62 @@ def measure(scene, bed, state, given):
     return samples, memory
 
 
-def ratio(cost, programs):
-    """Of the fastest of `programs` that were measured to the last program; None without any."""
-    known = [cost[program] for program in programs if program in cost]
-    return min(known) / list(cost.values())[-1] if known else None
+def times_faster(cost, program, references):
+    """None if none of the references was measured."""
+    known = [cost[name] for name in references if name in cost]
+    return min(known) / cost[program] if known else None
 
 
-def row(state, samples, memory):
-    cost = {program: statistics.median(values) for program, values in samples.items()}
-    cells = [f"{value:.1f}" for value in cost.values()]
-    for reference in (("stock", "primitive"), ("lammps",)):
-        times = ratio(cost, reference)
-        cells.append("-" if times is None else f"{times:.2f}")
-    return [state, *cells, f"{list(memory.values())[-1]:.0f}"], cost
+def columns_of(programs):
+    """Names of the columns of a state: costs, then ratios of the fused programs."""
+    ours = [program for program in programs if program in TARGETS]
+    return [*programs, *(f"{name}/{program}" for program in ours for name in REFERENCES)]
+
+
+def cells_of(cost):
+    ratios = [times_faster(cost, program, references) for program in cost if program in TARGETS
+              for references in REFERENCES.values()]
+    return [*(f"{value:.1f}" for value in cost.values()),
+            *("-" if value is None else f"{value:.2f}" for value in ratios)]
+
+
+def medians(samples):
+    return {program: statistics.median(values) for program, values in samples.items()}
+
+
+def write_result(path, costs, memory):
+    path.parent.mkdir(exist_ok=True)
+    with open(path, "w", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["state", *PROGRAMS, *(f"bytes_{name}" for name in PROGRAMS)])
+        for state, cost in costs.items():
+            table.writerow([state, *(f"{cost[name]:.2f}" for name in PROGRAMS),
+                            *(f"{memory[state][name]:.0f}" for name in PROGRAMS)])
+
+
+def write_page():
+    """All stored results as docs/engine_cost.md."""
+    lines = ["# The fused engine against stock LIGGGHTS and LAMMPS", "",
+             "Made by `tests/bench/dem/compare.py` from `tests/bench/dem/results/`; what the "
+             "programs and states are is said at its head. Wall nanoseconds per grain and step, "
+             "then times faster than stock LIGGGHTS and LAMMPS, then bytes per grain of the whole "
+             "process. Targets, states A / B / C: "
+             + "; ".join(f"`{name}` {ours} of LIGGGHTS, {theirs} of LAMMPS"
+                         for name, (ours, theirs) in TARGETS.items()) + "."]
+    paths = sorted(RESULTS.glob("*.csv"), key=lambda path: [*map(int, path.stem.split("_"))])
+    if not paths:
+        lines += ["", "No run is stored."]
+    for path in paths:
+        grains, ranks = path.stem.split("_")
+        names = ["state", *columns_of(PROGRAMS), *(f"B/grain {name}" for name in PROGRAMS)]
+        lines += ["", f"## {int(grains):,} grains, {ranks} rank(s)".replace(",", " "), "",
+                  "| " + " | ".join(names) + " |", "|" + "---|" * len(names)]
+        with open(path, newline="") as file:
+            for row in csv.DictReader(file):
+                cost = {name: float(row[name]) for name in PROGRAMS}
+                cells = [row["state"], *cells_of(cost), *(row[f"bytes_{n}"] for n in PROGRAMS)]
+                lines.append("| " + " | ".join(cells) + " |")
+    PAGE.write_text("\n".join(lines) + "\n")
 
 
 def plot(path, costs, title):
@@ -100,7 +152,7 @@ def arguments():
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--skin", type=float, default=5e-5)
     parser.add_argument("--states", default="ABC")
-    parser.add_argument("--programs", default="stock,lammps,unchanged,fused",
+    parser.add_argument("--programs", default=",".join(PROGRAMS),
                         type=lambda text: text.split(","))
     parser.add_argument("--stock-model", choices=("hooke/stiffness", "hertz"),
                         default="hooke/stiffness")
@@ -120,20 +172,30 @@ def main():
         bed = settled(scene, given.grains, given.gasgrain, given.ranks,
                       given.out / f"bed_{given.grains}.csv.gz")
     title = f"{scene.copies * len(bed)} grains, {given.ranks} rank(s)"
-    names = ["state", *given.programs, "x liggghts", "x lammps", "B/grain"]
-    lines = [f"{title}, {given.steps} steps, ns per grain-step; targets against liggghts: " +
-             ", ".join(f"{state} {times}" for state, times in TARGETS.items()),
-             "".join(f"{name:>12}" for name in names)]
+    names = ["state", *columns_of(given.programs), "B/grain"]
+    widths = [max(10, len(name) + 2) for name in names]
+
+    def line(cells):
+        return "".join(f"{cell:>{width}}" for cell, width in zip(cells, widths))
+
+    lines = [f"{title}, {given.steps} steps, ns per grain-step, times faster; targets A / B / C: " +
+             ", ".join(f"{name} {ours} of liggghts" for name, (ours, _) in TARGETS.items()),
+             line(names)]
     print("\n".join(lines), flush=True)
-    costs = {}
+    costs, memory = {}, {}
     for state in given.states:
-        cells, costs[state] = row(state, *measure(scene, bed, state, given))
-        lines.append("".join(f"{cell:>12}" for cell in cells))
+        samples, memory[state] = measure(scene, bed, state, given)
+        costs[state] = medians(samples)
+        lines.append(line([state, *cells_of(costs[state]),
+                           f"{list(memory[state].values())[-1]:.0f}"]))
         print(lines[-1], flush=True)
     given.out.mkdir(parents=True, exist_ok=True)
     stem = given.out / f"cost_{scene.copies * len(bed)}_{given.ranks}"
     stem.with_suffix(".txt").write_text("\n".join(lines) + "\n")
     plot(stem.with_suffix(".png"), costs, title)
+    if not given.bed and given.states == "ABC" and tuple(given.programs) == PROGRAMS:
+        write_result(RESULTS / f"{given.grains}_{given.ranks}.csv", costs, memory)
+        write_page()
 
 
 if __name__ == "__main__":

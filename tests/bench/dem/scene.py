@@ -27,7 +27,8 @@ STOCK_EXECUTABLE = {"stock": "liggghts", "primitive": "liggghts", "lammps": "lmp
 # Programs with stock's contact model, of which `unchanged` runs in gasgrain.
 STOCK_SCRIPT = ("stock", "primitive", "unchanged")
 ENGINE = {"unchanged": "gasgrain_engine fused\n", "cgm": "gasgrain_engine off\n",
-          "fused": "gasgrain_engine fused\n"}
+          "fused": "gasgrain_engine fused\n",
+          "mixed": "gasgrain_engine fused precision mixed\n"}
 
 
 @dataclasses.dataclass(frozen=True)
