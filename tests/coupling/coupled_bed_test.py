@@ -33,11 +33,37 @@ class CoupledBed(unittest.TestCase):
             self.assertEqual(len(rows), 6)
             reference = reference or rows
             for row, expected in zip(rows, reference):
-                for name in ("pressure_drop", "bed_height", "kinetic_energy", "bodies_on_gas",
-                             "walls_on_grains", "smallest_void_fraction"):
-                    self.assertAlmostEqual(row[name], expected[name],
-                                           delta=1e-8 * max(abs(expected[name]), 1e-9),
-                                           msg=f"{name} at {ranks} ranks")
+                self.assert_rows_agree(row, expected, ranks)
+
+    def test_ranks_with_grains_or_with_gas_alone(self):
+        """The left half of the gas grid is solid and its ranks own all the grains."""
+        reference = None
+        for ranks in (1, 3, 4, 8):
+            case = (bed.case(coupling="exchange_interval = 6e-5", interval=1e-5)
+                    .replace("lower = [0, 0, 0]\nupper", "lower = [-0.0075, 0, 0]\nupper")
+                    .replace("cells = [6, 4, 16]", "cells = [12, 4, 16]")
+                    .replace("[numerics]\n", '[[body]]\nname = "rock"\nacts_on = ["gas"]\n'
+                             "plane = {point = [0, 0, 0], normal = [1, 0, 0]}\n"
+                             f"[numerics]\nranks = [{ranks}, 1, 1]\n"))
+            bench = bed.bench(case)
+            # the bed fills the lower 8 of 20 mm: the upper ranks own no grains, but the gas
+            bench.run(bed.script("run 30").replace("processors * * 1", "processors 1 1 *"),
+                      ranks=ranks)
+            rows = bed.series(bench.directory)
+            self.assertEqual(rows[-1]["grains_outside"], 0)
+            reference = reference or rows
+            for row, expected in zip(rows, reference):
+                self.assertLess(abs(row["third_law_residual"]), 1e-12)
+                self.assertLess(abs(row["momentum_residual"]), 1e-9)
+                self.assertLess(abs(row["solid_volume_residual"]), 1e-12)
+                self.assert_rows_agree(row, expected, ranks)
+
+    def assert_rows_agree(self, row, expected, ranks):
+        for name in ("pressure_drop", "bed_height", "kinetic_energy", "bodies_on_gas",
+                     "walls_on_grains", "smallest_void_fraction"):
+            self.assertAlmostEqual(row[name], expected[name],
+                                   delta=1e-8 * max(abs(expected[name]), 1e-9),
+                                   msg=f"{name} at {ranks} ranks")
 
     def test_drop_of_pressure_carries_the_bed(self):
         # residual aside, the time mean of the balance: drop times area = weight + walls + change
