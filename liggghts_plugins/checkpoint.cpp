@@ -16,12 +16,12 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "coupling/files/collective_error.hpp"
 #include "coupling/shared/complete_file.hpp"
 #include "coupling/shared/error.hpp"
+#include "coupling/shared/step_files.hpp"
 
 namespace gasgrain::plugins {
 
@@ -119,37 +119,19 @@ void run_part(LAMMPS& lmp, const RunRequest& request, bigint steps, const std::s
   LAMMPS_NS::Run(&lmp).command(static_cast<int>(arguments.size()), arguments.data());
 }
 
-// Removes the files of all steps but the given ones: grains.STEP.restart, gas.STEP.state.h5.
-void remove_others(const files::path& directory, const std::set<std::string>& steps) {
-  for (const files::directory_entry& entry : files::directory_iterator(directory)) {
-    const std::string name = entry.path().filename().string();
-    const std::size_t first = name.find('.'), second = name.find('.', first + 1);
-    if (second == std::string::npos) continue;
-    const std::string kind = name.substr(0, first),
-                      step = name.substr(first + 1, second - first - 1);
-    if ((kind == "grains" || kind == "gas") && whole_number(step) && !steps.contains(step))
-      files::remove(entry.path());
-  }
-}
+const StepFileName grains_file{"grains.", ".restart"}, gas_file{"gas.", ".state.h5"};
 
-// Step of the file that a link DIR/latest.restart names, or "".
-std::string step_of(const files::path& latest) {
-  std::error_code error;
-  const std::string name = files::read_symlink(latest, error).string();
-  const std::size_t first = name.find('.');
-  return error || first == std::string::npos ? ""
-                                             : name.substr(first + 1, name.rfind('.') - first - 1);
-}
-
-void make_latest(const files::path& directory, const std::string& step) {
+void make_latest(const files::path& directory, long step) {
   const files::path latest = directory / "latest.restart", fresh = directory / "latest.restart.new";
-  const std::string before = step_of(latest);
-  std::error_code ignored;  // absent is as good as removed
+  std::error_code ignored;  // absent is as good as removed, and has no step
+  const std::optional<long> before =
+      step_of_file(grains_file, files::read_symlink(latest, ignored).string());
   files::remove(fresh, ignored);
-  files::create_symlink("grains." + step + ".restart", fresh);
+  files::create_symlink(file_of_step(grains_file, step), fresh);
   files::rename(fresh, latest);
   put_on_disk(directory);
-  remove_others(directory, {step, before});
+  for (const StepFileName& name : {grains_file, gas_file})
+    keep_last_two(directory, name, step, before);
 }
 
 // Runs `work` on rank 0; what it throws, all ranks throw.
@@ -168,22 +150,23 @@ void on_first_rank(const LAMMPS& lmp, const std::string& what, const Work& work)
 void write_checkpoint(LAMMPS& lmp) {
   Checkpoints& wanted = checkpoints(lmp);
   const files::path directory = wanted.directory;
-  const std::string step = std::to_string(lmp.update->ntimestep);
+  const long step = lmp.update->ntimestep;
+  const std::string name = file_of_step(grains_file, step);
   const double start = MPI_Wtime();
   on_first_rank(lmp, "make the directory " + wanted.directory,
                 [&] { files::create_directories(directory); });
-  std::string partial = (directory / ("grains." + step + ".restart.partial")).string();
+  std::string partial = (directory / (name + ".partial")).string();
   char* argument = partial.data();
   wanted.being_written = true;
   LAMMPS_NS::WriteRestart(&lmp).command(1, &argument);
   wanted.being_written = false;
   on_first_rank(lmp, "complete the checkpoint in " + wanted.directory, [&] {
-    complete_file(partial, directory / ("grains." + step + ".restart"));
+    complete_file(partial, directory / name);
     make_latest(directory, step);
   });
   char line[160];
-  std::snprintf(line, sizeof line, "Checkpoint at step %s: %s/latest.restart (%.2f s)",
-                step.c_str(), wanted.directory.c_str(), MPI_Wtime() - start);
+  std::snprintf(line, sizeof line, "Checkpoint at step %ld: %s/latest.restart (%.2f s)", step,
+                wanted.directory.c_str(), MPI_Wtime() - start);
   print(lmp, line);
 }
 

@@ -10,10 +10,12 @@
 #include <mpi.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "coupling/files/hdf5_file.hpp"
+#include "coupling/shared/step_files.hpp"
 
 namespace gasgrain {
 
@@ -35,13 +37,11 @@ class CheckpointFiles {
   std::vector<std::string> found() const;
 
  private:
-  std::vector<std::string> list() const;
-  void remove_all_but(const std::string& newest) const;
-
   MPI_Comm comm_;
   int rank_ = 0;
-  std::string directory_, name_;
-  std::string previous_;  // path of the one to keep, or ""
+  std::string directory_;
+  StepFileName name_;
+  std::optional<long> previous_;  // step of the one to keep
 };
 
 }  // namespace gasgrain
