@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "cfd/field.hpp"
@@ -15,12 +16,26 @@ namespace gasgrain::coupling {
 template <int components>
 using CellArray = std::vector<std::array<double, components>>;
 
-// The number of values that a CellArray of this block needs.
-inline std::size_t cell_array_size(const cfd::Decomposition& decomposition) {
-  return cfd::Field(decomposition.block().size).count();
-}
+// Ghost layers around the block: how many an array has, and how many of them a message moves. The
+// default is the layout of cfd::Field with the layer that 27 cells around an owned one need.
+struct GhostLayers {
+  int stored = cfd::halo;
+  int moved = 1;  // <= stored, and <= the cells of any block in a direction with neighbours
+};
 
-// All functions are collective over neighbours, move one layer of ghosts with all components in one
+// Index of the local cell (i, j, k) is (i + stored) + (j + stored) y + (k + stored) z.
+struct CellStrides {
+  std::ptrdiff_t y, z;
+
+  CellStrides(const cfd::Index3& size, const GhostLayers& ghosts)
+      : y(size[0] + 2 * ghosts.stored + 1), z(y * (size[1] + 2 * ghosts.stored + 1)) {}
+};
+
+// The number of values that a CellArray of this block needs.
+std::size_t cell_array_size(const cfd::Decomposition& decomposition,
+                            const GhostLayers& ghosts = {});
+
+// All functions are collective over neighbours, move layers of ghosts with all components in one
 // message, and leave ghosts at non-periodic sides of the grid as they are.
 
 // Ghosts across block faces, without edges and corners: what a seven-point stencil reads.
@@ -29,11 +44,13 @@ void fill_face_ghosts(const cfd::Decomposition& decomposition, CellArray<compone
 
 // Ghosts with edges and corners: what 27 cells around an owned one read.
 template <int components>
-void fill_ghosts(const cfd::Decomposition& decomposition, CellArray<components>& cells);
+void fill_ghosts(const cfd::Decomposition& decomposition, CellArray<components>& cells,
+                 const GhostLayers& ghosts = {});
 
 // Transpose of fill_ghosts: adds every ghost to the cell it is a copy of and zeroes it. The order
 // of additions is fixed, so results repeat bit for bit.
 template <int components>
-void add_ghosts_to_owners(const cfd::Decomposition& decomposition, CellArray<components>& cells);
+void add_ghosts_to_owners(const cfd::Decomposition& decomposition, CellArray<components>& cells,
+                          const GhostLayers& ghosts = {});
 
 }  // namespace gasgrain::coupling

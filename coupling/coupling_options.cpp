@@ -20,6 +20,8 @@ CouplingOptions read_coupling_options(const ConfigTable& table, const cfd::GasCa
   options.drag_update = table.choice_or("drag_update", "held", {"held", "dem-step"}) == "held"
                             ? DragUpdate::held
                             : DragUpdate::dem_step;
+  options.mapping =
+      find_mapping(table.choice_or("mapping", mapping_name(options.mapping), mapping_names()));
   options.exchange_interval = table.number_or("exchange_interval", 0.0, Range::positive());
   options.kernel_width = table.number_or("kernel_width", 0.0, Range::positive());
   options.average_from = table.number_or("average_from", 0.0, Range::non_negative());

@@ -5,6 +5,7 @@
 
 #include "cfd/gas_case.hpp"
 #include "coupling/audit_bounds.hpp"
+#include "coupling/mapping.hpp"
 #include "coupling/momentum_exchange.hpp"
 #include "coupling/monitor_options.hpp"
 #include "coupling/shared/config_table.hpp"
@@ -26,9 +27,12 @@ struct CouplingOptions {
   DragOptions drag;
   Feedback feedback = Feedback::two_way;
   DragUpdate drag_update = DragUpdate::held;
+  Mapping mapping = Mapping::spline;
   double exchange_interval = 0.0;  // s, requested interval between exchanges; 0 = from the limits
-  double kernel_width = 0.0;  // m, standard deviation of the deposition kernel; 0 = from dx and d
-  double average_from = 0.0;  // s of gas time: start of the time means
+  // m, standard deviation of the deposition kernel; 0: from dx and d, other mappings than the
+  // spline are not smoothed
+  double kernel_width = 0.0;
+  double average_from = 0.0;       // s of gas time: start of the time means
   double series_interval = 0.0;    // s of gas time between rows; 0 = a tenth of the frames'
   double progress_interval = 0.0;  // s of gas time between progress lines; 0 = as the frames
   std::string case_name;           // in summary.json

@@ -54,7 +54,7 @@ GasCoupling::GasCoupling(const cfd::GasCase& gas_case, const CouplingOptions& op
                          MPI_Comm communicator)
     : options_(options),
       gas_(gas_case, communicator),
-      deposition_(gas_.decomposition(), gas_.walls()),
+      deposition_(gas_.decomposition(), gas_.walls(), options.mapping),
       transfer_(gas_.decomposition()),
       void_fraction_(gas_.decomposition().block().size, 1.0) {
   if (gas_.walls().spans_bodies) {
@@ -67,10 +67,8 @@ GasCoupling::GasCoupling(const cfd::GasCase& gas_case, const CouplingOptions& op
     pressure_gradient_[d] = cfd::Field(gas_.decomposition().block().size);
   }
   find_closed_cells();
-  if (options_.kernel_width > 0) {
-    kernel_width_ = options_.kernel_width;
-    deposition_.set_width(kernel_width_);
-  }
+  kernel_width_ = options_.kernel_width;
+  if (kernel_width_ > 0) deposition_.set_width(kernel_width_);
 }
 
 void GasCoupling::find_closed_cells() {
@@ -147,26 +145,41 @@ void GasCoupling::visit_state(cfd::StateArchive& archive) {
   const cfd::Decomposition& decomposition = gas_.decomposition();
   cfd::fill_ghosts(decomposition, velocity_);
   cfd::fill_ghosts(decomposition, pressure_gradient_);
-  if (kernel_width_ > 0.0) deposition_.set_width(kernel_width_);
+  kernel_is_adapted_ = true;
+  deposition_.set_width(kernel_width_, kernel_diameter_);
+}
+
+// The kernel follows the largest grain so far: its width, and how many cells a grain reaches over.
+void GasCoupling::adapt_kernel() {
+  const bool is_spline = options_.mapping == Mapping::spline;
+  const bool chooses_width = is_spline && options_.kernel_width <= 0;
+  if (is_spline && !chooses_width) return;
+  double largest = kernel_diameter_;
+  for (const GrainRecord& grain : transfer_.received())
+    largest = std::max(largest, grain_diameter(grain));
+  allreduce({&largest, 1}, MPI_MAX, gas_.decomposition().communicator());
+  if (largest <= kernel_diameter_ && kernel_is_adapted_) return;
+  kernel_is_adapted_ = true;
+  kernel_diameter_ = largest;
+  if (chooses_width) {
+    kernel_width_ = std::max(width_over_spacing * largest_spacing(gas_.decomposition().grid()),
+                             width_over_diameter * largest);
+  }
+  deposition_.set_width(kernel_width_, kernel_diameter_);
 }
 
 void GasCoupling::send_grains_to_gas_ranks(std::span<const GrainRecord> grains) {
   transfer_.send(grains);
+  adapt_kernel();
   const std::vector<GrainRecord>& received = transfer_.received();
-  if (options_.kernel_width <= 0) {
-    double largest = kernel_diameter_;
-    for (const GrainRecord& grain : received) largest = std::max(largest, grain_diameter(grain));
-    allreduce({&largest, 1}, MPI_MAX, gas_.decomposition().communicator());
-    if (largest > kernel_diameter_ || kernel_width_ == 0.0) {
-      kernel_diameter_ = largest;
-      kernel_width_ = std::max(width_over_spacing * largest_spacing(gas_.decomposition().grid()),
-                               width_over_diameter * largest);
-      deposition_.set_width(kernel_width_);
-    }
-  }
   std::vector<Vec3> positions(received.size());
   for (std::size_t n = 0; n < received.size(); ++n) positions[n] = received[n].position;
-  deposition_.locate(positions);
+  std::vector<double> diameters;
+  if (options_.mapping != Mapping::spline) {
+    diameters.resize(received.size());
+    for (std::size_t n = 0; n < received.size(); ++n) diameters[n] = grain_diameter(received[n]);
+  }
+  deposition_.locate(positions, diameters);
 }
 
 void GasCoupling::deposit_void_fraction() {
@@ -189,8 +202,9 @@ void GasCoupling::deposit_void_fraction() {
   message
       << "the void fraction of a gas cell is " << smallest
       << ", but must be positive; grains overlap strongly or the deposition kernel is too narrow "
-         "for them (coupling.kernel_width is "
-      << kernel_width_ << " m here): check the packing or widen the kernel";
+         "for them (coupling.mapping is "
+      << mapping_name(options_.mapping) << ", coupling.kernel_width " << kernel_width_
+      << " m here): check the packing or widen the kernel";
   throw UserError(message.str());
 }
 

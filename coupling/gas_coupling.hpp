@@ -48,6 +48,7 @@ class GasCoupling {
  private:
   void move_bodies(double interval);
   void find_closed_cells();
+  void adapt_kernel();
   void send_grains_to_gas_ranks(std::span<const GrainRecord> grains);
   void deposit_void_fraction();
   void gather_sauter_diameters();
@@ -64,8 +65,9 @@ class GasCoupling {
   cfd::GasSolver gas_;
   Deposition deposition_;
   GrainTransfer transfer_;
-  double kernel_width_ = 0.0;     // m
-  double kernel_diameter_ = 0.0;  // m, largest grain so far
+  double kernel_width_ = 0.0;       // m
+  double kernel_diameter_ = 0.0;    // m, largest grain so far
+  bool kernel_is_adapted_ = false;  // to that largest grain
 
   // Per received grain.
   std::vector<double> coefficients_;            // B, kg/s

@@ -68,6 +68,8 @@ std::string scene_text(const Scene& scene) {
   }
   out += text("  drag           %s on the original diameter, %s\n", scene.options.drag_name.c_str(),
               scene.options.feedback == Feedback::two_way ? "two-way" : "one-way");
+  if (scene.options.mapping != Mapping::spline)
+    out += text("  mapping        %s\n", mapping_name(scene.options.mapping).c_str());
   out += text("  kernel         standard deviation %.4g mm, %d smoothing sweeps\n",
               scene.coupling.kernel_width() * 1e3, plan.sweeps);
   out += text("  exchange       every %d DEM steps of %.4g s = %.4g s, limited by %s\n",

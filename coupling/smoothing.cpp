@@ -24,8 +24,7 @@ namespace gasgrain::coupling {
 
 namespace {
 
-constexpr double largest_number = 1.0 / 8.0;   // lambda per direction
-constexpr double spline_variance = 1.0 / 4.0;  // of the quadratic B-spline, in dx^2
+constexpr double largest_number = 1.0 / 8.0;  // lambda per direction
 
 cfd::Field connected_open_fraction(const cfd::Decomposition& decomposition,
                                    const cfd::WallGeometry& walls) {
@@ -43,13 +42,13 @@ cfd::Field connected_open_fraction(const cfd::Decomposition& decomposition,
 
 }  // namespace
 
-SmoothingPlan plan_smoothing(const cfd::Grid& grid, double width) {
+SmoothingPlan plan_smoothing(const cfd::Grid& grid, double width, const Vec3& variance) {
   const Vec3 spacing = grid.spacing();
   SmoothingPlan plan;
   for (int d = 0; d < 3; ++d) {
     if (grid.cells[d] == 1) continue;
-    const double variance = width * width / (spacing[d] * spacing[d]);
-    plan.number[d] = std::max(0.0, 0.5 * (variance - spline_variance));
+    const double wanted = width * width / (spacing[d] * spacing[d]);
+    plan.number[d] = std::max(0.0, 0.5 * (wanted - variance[d]));
   }
   plan.sweeps = static_cast<int>(std::ceil(plan.number.maxCoeff() / largest_number - 1e-12));
   if (plan.sweeps > 0) plan.number /= plan.sweeps;

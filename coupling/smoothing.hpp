@@ -16,9 +16,9 @@ struct SmoothingPlan {
   Vec3 number = Vec3::Zero();  // lambda per direction and sweep, in [0, 1/8]
 };
 
-// The least number of sweeps that widens the quadratic B-spline (variance dx^2 / 4 per direction)
-// to the standard deviation `width` [m]. Directions of a single cell are not smoothed.
-SmoothingPlan plan_smoothing(const cfd::Grid& grid, double width);
+// The least number of sweeps that widens a kernel of the given variance per direction, in dx^2, to
+// the standard deviation `width` [m]. Directions of a single cell are not smoothed.
+SmoothingPlan plan_smoothing(const cfd::Grid& grid, double width, const Vec3& variance);
 
 class Smoothing {
  public:

@@ -6,7 +6,8 @@
 //
 // The weights of a grain add up to one over open cells, so the solid volume is conserved to
 // round-off, always. The kernel is continuous in the grain's position, which keeps d(eps)/dt smooth
-// when grains cross cells; centroid and satellite mappings do not.
+// when grains cross cells; centroid and satellite mappings do not. Those and others are there for
+// comparison (coupling/mapping.hpp): ListedShares then takes the place of T, S and all else stay.
 // Fields hold amounts per open volume, phi_c = q_c / ((1 - alpha_c) V). There T becomes
 // b_ic / (V sum), and its transpose b_ic (1 - alpha_c) / sum acting on cell values: cheap, with one
 // number per grain beside its nine spline weights.
@@ -21,19 +22,27 @@
 
 namespace gasgrain::coupling {
 
-std::array<double, 3> spline_weights(double offset) {
-  return {0.5 * (0.5 - offset) * (0.5 - offset), 0.75 - offset * offset,
-          0.5 * (0.5 + offset) * (0.5 + offset)};
+Deposition::Deposition(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls,
+                       Mapping mapping)
+    : decomposition_(decomposition), smoothing_(decomposition, walls) {
+  if (mapping != Mapping::spline) listed_.emplace(decomposition, mapping);
 }
 
-Deposition::Deposition(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls)
-    : decomposition_(decomposition), smoothing_(decomposition, walls) {}
-
-void Deposition::set_width(double width) {
-  smoothing_.set_plan(plan_smoothing(decomposition_.grid(), width));
+void Deposition::set_walls(const cfd::WallGeometry& walls) {
+  smoothing_.set_walls(walls);
+  if (listed_) listed_->prepare(open_fraction(), largest_diameter_);
 }
 
-void Deposition::locate(std::span<const Vec3> positions) {
+void Deposition::set_width(double width, double largest_diameter) {
+  largest_diameter_ = largest_diameter;
+  const cfd::Grid& grid = decomposition_.grid();
+  smoothing_.set_plan(
+      plan_smoothing(grid, width, mapping_variance(mapping(), grid, largest_diameter)));
+  if (listed_) listed_->prepare(open_fraction(), largest_diameter);
+}
+
+void Deposition::locate(std::span<const Vec3> positions, std::span<const double> diameters) {
+  if (listed_) return listed_->locate(positions, diameters);
   const cfd::Grid& grid = decomposition_.grid();
   const cfd::Block& block = decomposition_.block();
   const Vec3 per_cell = grid.spacing().cwiseInverse();
@@ -62,12 +71,10 @@ void Deposition::locate(std::span<const Vec3> positions) {
 }
 
 template <int components>
-void Deposition::deposit(const std::array<cfd::Field*, components>& cells,
-                         std::span<const std::array<double, components>> amounts) {
+void Deposition::spread(CellArray<components>& density,
+                        std::span<const std::array<double, components>> amounts) {
   GASGRAIN_ASSERT(amounts.size() == stencils_.size());
   const cfd::Field& open = open_fraction();
-  CellArray<components>& density = std::get<CellArray<components>>(buffers_);
-  density.assign(open.count(), {});
   const double per_volume = 1.0 / decomposition_.grid().cell_volume();
   const std::ptrdiff_t sy = open.stride(1), sz = open.stride(2);
   for (std::size_t n = 0; n < stencils_.size(); ++n) {
@@ -85,6 +92,19 @@ void Deposition::deposit(const std::array<cfd::Field*, components>& cells,
       }
   }
   add_ghosts_to_owners<components>(decomposition_, density);
+}
+
+template <int components>
+void Deposition::deposit(const std::array<cfd::Field*, components>& cells,
+                         std::span<const std::array<double, components>> amounts) {
+  const cfd::Field& open = open_fraction();
+  CellArray<components>& density = std::get<CellArray<components>>(buffers_);
+  density.assign(open.count(), {});
+  if (listed_) {
+    listed_->spread<components>(density, amounts);
+  } else {
+    spread<components>(density, amounts);
+  }
   cfd::for_each_cell(open.size(), [&](int i, int j, int k) {
     const std::ptrdiff_t n = open.index(i, j, k);
     if (open[n] == 0.0) density[n].fill(0.0);
@@ -103,7 +123,6 @@ void Deposition::deposit(const std::array<cfd::Field*, components>& cells,
 template <int components>
 void Deposition::gather(std::span<std::array<double, components>> values,
                         const std::array<const cfd::Field*, components>& cells) {
-  GASGRAIN_ASSERT(values.size() == stencils_.size());
   const cfd::Field& open = open_fraction();
   CellArray<components>& weighted = std::get<CellArray<components>>(buffers_);
   weighted.assign(open.count(), {});
@@ -117,6 +136,18 @@ void Deposition::gather(std::span<std::array<double, components>> values,
     const std::ptrdiff_t n = open.index(i, j, k);
     for (double& value : weighted[n]) value *= open[n];
   });
+  if (listed_) {
+    listed_->collect<components>(values, weighted);
+  } else {
+    collect<components>(values, weighted);
+  }
+}
+
+template <int components>
+void Deposition::collect(std::span<std::array<double, components>> values,
+                         CellArray<components>& weighted) {
+  GASGRAIN_ASSERT(values.size() == stencils_.size());
+  const cfd::Field& open = open_fraction();
   fill_ghosts<components>(decomposition_, weighted);
   const std::ptrdiff_t sy = open.stride(1), sz = open.stride(2);
   for (std::size_t n = 0; n < stencils_.size(); ++n) {

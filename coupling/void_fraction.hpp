@@ -4,37 +4,41 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
 
+#include "coupling/listed_shares.hpp"
 #include "coupling/smoothing.hpp"
 
 namespace gasgrain::coupling {
 
-// Quadratic B-spline weights at the cells -1, 0, 1 around the cell that holds the grain; `offset`
-// in
-// [-1/2, 1/2] is the distance from the cell centre over the spacing.
-std::array<double, 3> spline_weights(double offset);
-
 class Deposition {
  public:
   // Keeps a reference to `decomposition`.
-  Deposition(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls);
+  Deposition(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls,
+             Mapping mapping = Mapping::spline);
 
-  // After the walls moved; to be followed by locate().
-  void set_walls(const cfd::WallGeometry& walls) { smoothing_.set_walls(walls); }
+  Mapping mapping() const { return listed_ ? listed_->mapping() : Mapping::spline; }
 
-  // Standard deviation of the kernel, m; see plan_smoothing().
-  void set_width(double width);
+  // After the walls moved; to be followed by locate(). Collective.
+  void set_walls(const cfd::WallGeometry& walls);
+
+  // Standard deviation of the kernel, m, reached by smoothing, and the largest diameter of a grain,
+  // m, equal on all ranks, which only matters for mappings that depend on it. 0: no smoothing.
+  // To be followed by locate(). Collective; throws UserError (ListedShares::prepare).
+  void set_width(double width, double largest_diameter = 0.0);
   const SmoothingPlan& plan() const { return smoothing_.plan(); }
   const cfd::Field& open_fraction() const { return smoothing_.open_fraction(); }
 
   // Takes the grains' positions; each must lie in a cell of this rank's block. A grain around which
-  // every cell is closed takes no part: it deposits nothing and gathers zeros.
-  void locate(std::span<const Vec3> positions);
-  std::size_t size() const { return stencils_.size(); }
-  bool takes_part(std::size_t grain) const { return stencils_[grain].weight > 0; }
+  // every cell is closed takes no part: it deposits nothing and gathers zeros. The B-spline does
+  // not look at `diameters` [m]; other mappings need one per grain.
+  void locate(std::span<const Vec3> positions, std::span<const double> diameters = {});
+  bool takes_part(std::size_t grain) const {
+    return listed_ ? listed_->takes_part(grain) : stencils_[grain].weight > 0;
+  }
 
   // D: cells[c] = deposited amount of component c per open volume, in owned cells. Amounts are
   // stored grain by grain, all components of a grain adjacent. Collective.
@@ -55,8 +59,17 @@ class Deposition {
     double weight = 0;  // 1 / sum of spline weights times (1 - alpha); 0: takes no part
   };
 
+  // T and its transpose with the B-spline.
+  template <int components>
+  void spread(CellArray<components>& density,
+              std::span<const std::array<double, components>> amounts);
+  template <int components>
+  void collect(std::span<std::array<double, components>> values, CellArray<components>& weighted);
+
   const cfd::Decomposition& decomposition_;
   Smoothing smoothing_;
+  double largest_diameter_ = 0.0;       // m
+  std::optional<ListedShares> listed_;  // of other mappings than the B-spline
   std::vector<Stencil> stencils_;
   std::tuple<CellArray<1>, CellArray<2>, CellArray<4>, CellArray<6>> buffers_;
 };

@@ -104,6 +104,23 @@ TEST(GasCoupling, obeys_newtons_third_law) {
   }
 }
 
+// Whatever spreads the grains, the gas loses what they get.
+TEST(GasCoupling, conserves_volume_and_momentum_with_every_mapping) {
+  for (const std::string& mapping : mapping_names()) {
+    const CoupledCase given(std::string(bed) + "[coupling]\nmapping = \"" + mapping + "\"\n");
+    GasCoupling coupling(given.gas, given.options, MPI_COMM_WORLD);
+    DealtGrains grains(bed_grains(), MPI_COMM_WORLD);
+    coupling.begin(grains.forces, grains.mine());
+    for (int n = 0; n < 3; ++n) {
+      move(grains.all(), 1e-4);
+      const ExchangeReport report = coupling.exchange(grains.forces, grains.mine(), 1e-4);
+      EXPECT_LT(report.third_law_residual, 1e-12) << mapping;
+      EXPECT_LT(report.pressure_residual, 1e-12) << mapping;
+      EXPECT_LT(report.solid_volume_residual, 1e-12) << mapping;
+    }
+  }
+}
+
 // The tube swings through the grains of a closed vessel.
 TEST(GasCoupling, conserves_volume_and_momentum_around_a_moving_body) {
   const std::string text = std::string(vessel) + R"(

@@ -10,10 +10,12 @@
 namespace gasgrain::coupling {
 namespace {
 
+const Vec3 spline_variance = Vec3::Constant(0.25);  // of the quadratic B-spline, in dx^2
+
 TEST(SmoothingPlan, reaches_the_width_with_the_fewest_sweeps) {
   const cfd::Grid grid{.lower = Vec3::Zero(), .upper = Vec3(1, 1, 1), .cells = {10, 10, 10}};
   for (const double width : {0.06, 0.08, 0.096, 0.25}) {
-    const SmoothingPlan plan = plan_smoothing(grid, width);
+    const SmoothingPlan plan = plan_smoothing(grid, width, spline_variance);
     const double variance = 0.1 * 0.1 * (0.25 + 2 * plan.sweeps * plan.number[0]);
     EXPECT_NEAR(std::sqrt(variance), width, 1e-12);
     EXPECT_LE(plan.number.maxCoeff(), 0.125 + 1e-12);
@@ -25,12 +27,12 @@ TEST(SmoothingPlan, reaches_the_width_with_the_fewest_sweeps) {
 
 TEST(SmoothingPlan, has_no_sweep_when_the_spline_is_wide_enough) {
   const cfd::Grid grid{.lower = Vec3::Zero(), .upper = Vec3(1, 1, 1), .cells = {10, 10, 10}};
-  EXPECT_EQ(plan_smoothing(grid, 0.04).sweeps, 0);
+  EXPECT_EQ(plan_smoothing(grid, 0.04, spline_variance).sweeps, 0);
 }
 
 TEST(SmoothingPlan, leaves_directions_of_one_cell_alone) {
   const cfd::Grid grid{.lower = Vec3::Zero(), .upper = Vec3(1, 0.1, 1), .cells = {10, 1, 10}};
-  EXPECT_EQ(plan_smoothing(grid, 0.1).number[1], 0.0);
+  EXPECT_EQ(plan_smoothing(grid, 0.1, spline_variance).number[1], 0.0);
 }
 
 // Smooths a field through the form that Smoothing works on.

@@ -27,6 +27,17 @@ TEST(SplineWeights, are_continuous_from_cell_to_cell) {
   EXPECT_DOUBLE_EQ(left[2], right[1]);
 }
 
+// Every test of Deposition below holds for all mappings.
+class DepositionOf : public testing::TestWithParam<std::string> {
+ protected:
+  Mapping mapping() const { return find_mapping(GetParam()); }
+};
+INSTANTIATE_TEST_SUITE_P(Mappings, DepositionOf, testing::ValuesIn(mapping_names()),
+                         [](const auto& of) { return of.param; });
+
+// Larger than a cell of 0.1 m, so that a grain reaches over two cells.
+constexpr double diameter = 0.27;
+
 struct Mapped {
   std::vector<Vec3> mine;  // this rank's grains
   std::vector<std::array<double, 1>> volumes;
@@ -42,17 +53,17 @@ Mapped deposit_volumes(const MappingScene& scene, Deposition& deposition, int co
     result.mine.push_back(x);
     result.volumes.push_back({1e-5 * (1 + 0.3 * std::sin(number))});
   }
-  deposition.locate(result.mine);
+  deposition.locate(result.mine, std::vector<double>(result.mine.size(), diameter));
   result.cells = cfd::Field(scene.decomposition.block().size);
   deposition.deposit<1>({&result.cells}, result.volumes);
   return result;
 }
 
-TEST(Deposition, conserves_solid_volume_with_cut_cells) {
+TEST_P(DepositionOf, conserves_solid_volume_with_cut_cells) {
   const MappingScene scene;
-  Deposition deposition(scene.decomposition, scene.walls);
+  Deposition deposition(scene.decomposition, scene.walls, mapping());
   for (const double width : {0.05, 0.096, 0.3}) {  // none, three and many sweeps
-    deposition.set_width(width);
+    deposition.set_width(width, diameter);
     const Mapped mapped = deposit_volumes(scene, deposition, 2000);
     double given = 0, deposited = 0;
     for (const auto& volume : mapped.volumes) given += volume[0];
@@ -68,10 +79,10 @@ TEST(Deposition, conserves_solid_volume_with_cut_cells) {
 }
 
 // <D x, y> = <x, D^T y> with the open volumes as weights of cells.
-TEST(Deposition, gather_is_its_transpose) {
+TEST_P(DepositionOf, gather_is_its_transpose) {
   const MappingScene scene;
-  Deposition deposition(scene.decomposition, scene.walls);
-  deposition.set_width(0.13);
+  Deposition deposition(scene.decomposition, scene.walls, mapping());
+  deposition.set_width(0.13, diameter);
   const Mapped mapped = deposit_volumes(scene, deposition, 500);
   cfd::Field y(scene.decomposition.block().size);
   const cfd::Block& block = scene.decomposition.block();
@@ -92,10 +103,10 @@ TEST(Deposition, gather_is_its_transpose) {
   EXPECT_NEAR(scene.sum(left), scene.sum(right), 1e-14 * scene.sum(magnitude));
 }
 
-TEST(Deposition, gathers_a_constant_exactly_next_to_walls) {
+TEST_P(DepositionOf, gathers_a_constant_exactly_next_to_walls) {
   const MappingScene scene;
-  Deposition deposition(scene.decomposition, scene.walls);
-  deposition.set_width(0.13);
+  Deposition deposition(scene.decomposition, scene.walls, mapping());
+  deposition.set_width(0.13, diameter);
   const Mapped mapped = deposit_volumes(scene, deposition, 500);
   cfd::Field constant(scene.decomposition.block().size, 2.5);
   std::vector<std::array<double, 1>> gathered(mapped.mine.size());
@@ -108,10 +119,10 @@ TEST(Deposition, gathers_a_constant_exactly_next_to_walls) {
 }
 
 // Several components at once are the same as one after the other.
-TEST(Deposition, components_do_not_mix) {
+TEST_P(DepositionOf, components_do_not_mix) {
   const MappingScene scene;
-  Deposition deposition(scene.decomposition, scene.walls);
-  deposition.set_width(0.1);
+  Deposition deposition(scene.decomposition, scene.walls, mapping());
+  deposition.set_width(0.1, diameter);
   const Mapped mapped = deposit_volumes(scene, deposition, 300);
   std::vector<std::array<double, 4>> amounts;
   for (const auto& volume : mapped.volumes) {
@@ -128,15 +139,15 @@ TEST(Deposition, components_do_not_mix) {
 }
 
 // Every rank maps all grains on the whole grid by itself and compares its block.
-TEST(Deposition, does_not_depend_on_the_ranks) {
+TEST_P(DepositionOf, does_not_depend_on_the_ranks) {
   for (const bool periodic : {false, true}) {
     const std::array<bool, 3> sides{periodic, periodic, false};
     const MappingScene scene({13, 9, 11}, sides);
     const MappingScene alone({13, 9, 11}, sides, {MappingScene::cylinder()}, MPI_COMM_SELF);
-    Deposition shared_deposition(scene.decomposition, scene.walls);
-    Deposition own_deposition(alone.decomposition, alone.walls);
-    shared_deposition.set_width(0.13);
-    own_deposition.set_width(0.13);
+    Deposition shared_deposition(scene.decomposition, scene.walls, mapping());
+    Deposition own_deposition(alone.decomposition, alone.walls, mapping());
+    shared_deposition.set_width(0.13, diameter);
+    own_deposition.set_width(0.13, diameter);
     const Mapped shared = deposit_volumes(scene, shared_deposition, 1000);
     const Mapped own = deposit_volumes(alone, own_deposition, 1000);
     const cfd::Block& block = scene.decomposition.block();
@@ -145,6 +156,31 @@ TEST(Deposition, does_not_depend_on_the_ranks) {
                   own.cells(i + block.lower[0], j + block.lower[1], k + block.lower[2]), 1e-14);
     });
   }
+}
+
+// Grains at half the spacing of the cells, wherever their lattice lies: every cell gets as much.
+TEST_P(DepositionOf, a_uniform_packing_is_uniform) {
+  const MappingScene scene({8, 8, 8}, {true, true, true}, {});
+  Deposition deposition(scene.decomposition, scene.walls, mapping());
+  deposition.set_width(0.0, diameter);
+  std::vector<Vec3> mine;
+  for (int n = 0; n < 16 * 16 * 16; ++n) {
+    const Vec3 x =
+        scene.grid.lower + 0.05 * Vec3(n % 16 + 0.3, n / 16 % 16 + 0.8, double(n / 256) + 0.45);
+    if (scene.owns(x)) mine.push_back(x);
+  }
+  deposition.locate(mine, std::vector<double>(mine.size(), diameter));
+  cfd::Field solid(scene.decomposition.block().size);
+  deposition.deposit<1>({&solid}, std::vector<std::array<double, 1>>(mine.size(), {0.5e-3 / 8}));
+  cfd::for_each_cell(solid.size(),
+                     [&](int i, int j, int k) { EXPECT_NEAR(solid(i, j, k), 0.5, 1e-12); });
+}
+
+TEST(Deposition, refuses_a_grain_that_reaches_beyond_the_next_block) {
+  const MappingScene scene({4, 1, 4}, {false, true, false}, {});
+  Deposition deposition(scene.decomposition, scene.walls, Mapping::exact);
+  deposition.set_width(0.0, 0.15);
+  EXPECT_THROW(deposition.set_width(0.0, 0.25), UserError);
 }
 
 TEST(Deposition, refuses_a_grain_of_another_rank) {
