@@ -29,9 +29,7 @@ void ContactList::start(int local_count, int dummy, PairCounts room, Precision p
   widest_pair_ = 0;
   row_begin_.assign(1, 0);
   make_room(row_begin_, local_count + 1);
-  candidate_first_.clear();
   candidate_second_.clear();
-  make_room(candidate_first_, room.candidates + group_size);
   make_room(candidate_second_, room.candidates + group_size);
   near_begin_.assign(blocks_of(local_count) + 1, 0);
   near_first_.clear();
@@ -43,10 +41,12 @@ void ContactList::start(int local_count, int dummy, PairCounts room, Precision p
   if (precision == Precision::mixed && !std::holds_alternative<Springs<float>>(springs_))
     springs_ = Springs<float>();
   touching_.clear();
+  // for all pairs that may become near: growing later would hold them twice for a moment, while
+  // room that is not used is no memory
   std::visit(
       [&](auto& springs) {
         springs.clear();
-        make_room(springs, room.touching);
+        make_room(springs, most_near_pairs(room.candidates));
       },
       springs_);
   make_room(touching_, room.touching);
@@ -67,22 +67,24 @@ void ContactList::add_touching(int candidate, const double* spring) {
 void ContactList::end_row() {
   const int grain = static_cast<int>(row_begin_.size()) - 1;
   for (std::size_t p = row_begin_.back(); p < candidate_second_.size(); ++p) {
-    candidate_first_.push_back(grain);
     const int second = candidate_second_[p];
     if (second < local_count_) widest_pair_ = std::max(widest_pair_, second - grain);
   }
   row_begin_.push_back(static_cast<int>(candidate_second_.size()));
 }
 
+// With the padding of each block and of the end.
+std::size_t ContactList::most_near_pairs(std::size_t candidates) const {
+  return candidates + (static_cast<std::size_t>(block_count()) + 1) * group_size;
+}
+
 void ContactList::find_near_pairs(const GrainRecord* grains, double margin) {
   const ContactKernel& kernel = contact_kernel();
-  candidate_first_.resize(row_begin_.back() + group_size, dummy_);
   candidate_second_.resize(row_begin_.back() + group_size, dummy_ + 1);
   near_first_.clear();
   near_second_.clear();
   near_candidate_.clear();
-  const std::size_t most =
-      candidate_first_.size() + static_cast<std::size_t>(block_count()) * group_size;
+  const std::size_t most = most_near_pairs(candidate_second_.size());
   for (std::vector<int>* list : {&near_first_, &near_second_, &near_candidate_})
     make_room(*list, most);
   for (int block = 0; block < block_count(); ++block) {
@@ -90,13 +92,14 @@ void ContactList::find_near_pairs(const GrainRecord* grains, double margin) {
     const int begin = row_begin_[block * grains_per_block];
     const int end = row_begin_[std::min(local_count_, (block + 1) * grains_per_block)];
     places_.resize(end - begin + 2 * group_size);
-    const int count =
-        kernel.near_pairs(grains, {candidate_first_.data(), candidate_second_.data(), begin, end},
-                          margin, places_.data());
+    list_first_grains(block);
+    const int* second = candidate_second_.data() + begin;
+    const int count = kernel.near_pairs(grains, {block_first_.data(), second, 0, end - begin},
+                                        margin, places_.data());
     for (int n = 0; n < count; ++n) {
-      near_first_.push_back(candidate_first_[places_[n]]);
-      near_second_.push_back(candidate_second_[places_[n]]);
-      near_candidate_.push_back(places_[n]);
+      near_first_.push_back(block_first_[places_[n]]);
+      near_second_.push_back(second[places_[n]]);
+      near_candidate_.push_back(begin + places_[n]);
     }
     pad_to_group();
   }
@@ -105,6 +108,16 @@ void ContactList::find_near_pairs(const GrainRecord* grains, double margin) {
   near_first_.resize(near_first_.size() + group_size, dummy_);
   near_second_.resize(near_second_.size() + group_size, dummy_ + 1);
   near_candidate_.resize(near_candidate_.size() + group_size, no_candidate);
+}
+
+// One for each candidate of the block, and padding: the list of all would be as long as that of
+// the second ones.
+void ContactList::list_first_grains(int block) {
+  block_first_.clear();
+  const int last = std::min(local_count_, (block + 1) * grains_per_block);
+  for (int grain = block * grains_per_block; grain < last; ++grain)
+    block_first_.insert(block_first_.end(), row_end(grain) - row_begin(grain), grain);
+  block_first_.insert(block_first_.end(), group_size, dummy_);
 }
 
 void ContactList::pad_to_group() {

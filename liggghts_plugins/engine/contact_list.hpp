@@ -84,8 +84,10 @@ class ContactList {
   void keep_touching();
   template <class Real>
   void gather_springs(Springs<Real>& springs);
+  std::size_t most_near_pairs(std::size_t candidates) const;
   void find_near_pairs(const GrainRecord* grains, double margin);
   void pad_to_group();
+  void list_first_grains(int block);
   void restore_touching();
   template <class Real>
   void spread_springs(Springs<Real>& springs);
@@ -94,7 +96,8 @@ class ContactList {
   int dummy_ = 0;
   int widest_pair_ = 0;
   std::vector<int> row_begin_;  // per grain, and the end
-  std::vector<int> candidate_first_, candidate_second_;
+  std::vector<int> candidate_second_;
+  std::vector<int> block_first_;  // of the candidates of one block
 
   std::vector<int> near_begin_;  // per block, and the end
   std::vector<int> near_first_, near_second_, near_candidate_;

@@ -39,6 +39,11 @@ struct NextRestart {
   using Member = bigint LAMMPS_NS::Output::*;
   friend Member private_member(NextRestart);
 };
+struct PlacesAtBuild {
+  using Member = double** Neighbor::*;
+  friend Member private_member(PlacesAtBuild);
+};
+template struct GrantAccess<PlacesAtBuild, &Neighbor::xhold>;
 template struct GrantAccess<MustCheck, &Neighbor::must_check>;
 template struct GrantAccess<NextRestart, &LAMMPS_NS::Output::next_restart>;
 
@@ -191,11 +196,15 @@ double FusedVerlet::largest_of_ranks(double value) const {
   return value;
 }
 
+const double* FusedVerlet::built_at(int i) const {
+  return built_at_.empty() ? (neighbor->*private_member(PlacesAtBuild()))[i] : built_at_[i].data();
+}
+
 double FusedVerlet::displacement_since_build() const {
   double largest = 0.0;
-  for (int i = 0; i < static_cast<int>(built_at_.size()); ++i) {
+  for (int i = 0; i < loop_.counts().local; ++i) {
     const ConstColumn position(loop_.grain(i).position);
-    largest = std::max(largest, (position - built_at_[i]).squaredNorm());
+    largest = std::max(largest, (position - ConstColumn(built_at(i))).squaredNorm());
   }
   return largest_of_ranks(std::sqrt(largest));
 }

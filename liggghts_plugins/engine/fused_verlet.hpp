@@ -66,6 +66,7 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
 
   void note_drift(double square_speed);
   bool restart_file_due();
+  const double* built_at(int i) const;
   double displacement_since_build() const;
   double largest_of_ranks(double value) const;
 
@@ -76,8 +77,9 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
   GrainLoop loop_;
   GhostExchange ghosts_;
   StreamGrains streams_;
-  std::vector<Vec3> built_at_;  // positions of local grains when the lists were built
-  double moved_ = 0;            // m, bound on the displacement since then, of all ranks
+  // Positions of local grains when the lists were built, unless LIGGGHTS keeps them, too.
+  std::vector<Vec3> built_at_;
+  double moved_ = 0;  // m, bound on the displacement since then, of all ranks
   bool reneighbour_next_ = false;
   bool closed_ = true;  // the atom arrays hold the end of the present step
   bool histories_are_ours_ = false;

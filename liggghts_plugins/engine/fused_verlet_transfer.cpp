@@ -59,8 +59,9 @@ void FusedVerlet::load_grains() {
   for (LAMMPS_NS::FixWallGran* wall : plan_.primitive_walls)
     keep_near_grains(*wall, *atom, neighbor->skin);
   ghosts_.load(*lmp);
-  built_at_.resize(counts.local);
-  for (int i = 0; i < counts.local; ++i) built_at_[i] = ConstColumn(atom->x[i]);
+  built_at_.resize(neighbor->dist_check ? 0 : counts.local);
+  for (int i = 0; i < static_cast<int>(built_at_.size()); ++i)
+    built_at_[i] = ConstColumn(atom->x[i]);
   moved_ = 0.0;
   reneighbour_next_ = false;
   histories_are_ours_ = false;

@@ -46,6 +46,10 @@ void WallContacts::add_block(int block, const WallBatch& batch) {
   std::vector<Vec3>& springs = wall_->springs();
   const double travelled = batch.travelled + swept_;
   for (int c = block_begin_[block]; c < block_begin_[block + 1]; ++c) {
+    // runs of a block are too short for the processor to foresee them; the next block's follow
+    constexpr int ahead = 8;
+    __builtin_prefetch(candidates_.data() + c + ahead, 1);
+    __builtin_prefetch(springs.data() + c + ahead, 1);
     Candidate& candidate = candidates_[c];
     if (travelled < candidate.touches_after) continue;
     const int i = candidate.grain;

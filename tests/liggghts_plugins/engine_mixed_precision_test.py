@@ -23,8 +23,8 @@ def engine(precision):
 
 
 def rows_of(precision, seed):
-    """Step, grains, kinetic and rotational energy, contacts per grain, mean height and vertical load
-    of the walls, of a crowd that falls and comes to rest."""
+    """Step, grains, kinetic and rotational energy, contacts per grain, mean height, vertical load
+    of the walls of a crowd that falls and comes to rest."""
     bench = Bench(files(crowd(seed=seed)))
     bench.run(engine(precision) + scene() + COLUMNS + f"run {SETTLED}\n")
     return [row for row in thermo((bench.directory / "log.txt").read_text()) if len(row) == 7]
