@@ -64,35 +64,25 @@ void set_weights(FaceMedium& medium, const GasDomain& domain, int d) {
   });
 }
 
-void update_void_fraction(FaceMedium& medium, const GasDomain& domain, int d) {
-  Field& cells = medium.cell_void_fraction;
-  const std::ptrdiff_t s = cells.stride(d);
-  const double* cell = cells.data();
-  const double* below = medium.weight_below[d].data();
-  const double* above = medium.weight_above[d].data();
-  double* face = medium.void_fraction[d].data();
-  with_lenders_joined(medium.lent[0], cells, domain, d, [&] {
-    for_box(faces_between_cells(domain, d), cells, [=](std::ptrdiff_t n) {
-      const double mean = below[n] * cell[n - s] + above[n] * cell[n];
-      face[n] = below[n] + above[n] > 0.0 ? mean : 0.5 * (cell[n - s] + cell[n]);
-    });
-  });
-}
-
-void update_drag(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains, int d) {
-  Field &cells_b = grains.momentum_exchange, &cells_bv = grains.exchange_momentum[d];
-  const std::ptrdiff_t s = cells_b.stride(d);
-  const double *b = cells_b.data(), *bv = cells_bv.data();
-  const double* below = medium.weight_below[d].data();
-  const double* above = medium.weight_above[d].data();
+// Void fraction and drag of the faces of direction d from those of the cells.
+void update_faces(FaceMedium& medium, const GasDomain& domain, const GrainPhase& grains, int d) {
+  const Field& like = medium.cell_void_fraction;
+  const std::ptrdiff_t s = like.stride(d);
+  const double *below = medium.weight_below[d].data(), *above = medium.weight_above[d].data();
+  const double* eps = like.data();
+  const double* b = grains.momentum_exchange.data();
+  const double* bv = grains.exchange_momentum[d].data();
+  double* face_eps = medium.void_fraction[d].data();
   double* face_b = medium.momentum_exchange[d].data();
   double* face_bv = medium.exchange_momentum[d].data();
-  with_lenders_joined(medium.lent[0], cells_b, domain, d, [&] {
-    with_lenders_joined(medium.lent[1], cells_bv, domain, d, [&] {
-      for_box(all_faces(domain, d), cells_b, [=](std::ptrdiff_t n) {
-        face_b[n] = below[n] * b[n - s] + above[n] * b[n];
-        face_bv[n] = below[n] * bv[n - s] + above[n] * bv[n];
-      });
+  for_each_part(faces_between_cells(domain, d), [&](const IndexBox& part) {
+    for_box(part, like, [=](std::ptrdiff_t n) {
+      const double mean = below[n] * eps[n - s] + above[n] * eps[n];
+      face_eps[n] = below[n] + above[n] > 0.0 ? mean : 0.5 * (eps[n - s] + eps[n]);
+    });
+    for_box(intersection(part, all_faces(domain, d)), like, [=](std::ptrdiff_t n) {
+      face_b[n] = below[n] * b[n - s] + above[n] * b[n];
+      face_bv[n] = below[n] * bv[n - s] + above[n] * bv[n];
     });
   });
 }
@@ -151,8 +141,12 @@ void update(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains) {
                          &grains.exchange_momentum[1], &grains.exchange_momentum[2]};
   fill_ghosts(domain.decomposition, drag);
   for (int d = 0; d < 3; ++d) {
-    update_void_fraction(medium, domain, d);
-    update_drag(medium, domain, grains, d);
+    with_lenders_joined(medium.lent[0], medium.cell_void_fraction, domain, d, [&] {
+      with_lenders_joined(medium.lent[1], grains.momentum_exchange, domain, d, [&] {
+        with_lenders_joined(medium.lent[2], grains.exchange_momentum[d], domain, d,
+                            [&] { update_faces(medium, domain, grains, d); });
+      });
+    });
   }
   if (domain.any_lenders) fill_ghosts(domain.decomposition, medium.void_fraction);
   if (domain.walls.has_bodies) fill_ghosts(domain.decomposition, medium.momentum_exchange);

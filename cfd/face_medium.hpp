@@ -23,7 +23,7 @@ struct FaceMedium {
   VectorField density_scaling;
   bool has_scaling = false;
   // Work space: values of cells that lend and of their hosts.
-  std::array<std::vector<double>, 2> lent;
+  std::array<std::vector<double>, 3> lent;
 };
 
 FaceMedium make_face_medium(const GasDomain& domain);

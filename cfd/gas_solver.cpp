@@ -63,13 +63,14 @@ void GasSolver::State::evaluate_slope() {
       old_slope.convection = volume_integral(domain, old_slope.total) - old_slope.viscous;
     }
   }
-  evaluate(slope, domain, medium, velocity, gas_case.numerics.convection);
+  slope_evaluation.evaluate(slope, medium, velocity);
 }
 
 // Steps 1 and 2 on the faces that take part.
-void GasSolver::State::predict(double dt, const AdamsBashforth& weights,
-                               const VectorField& slope_now, const VectorField& slope_before) {
+double GasSolver::State::predict(double dt, const AdamsBashforth& weights,
+                                 const VectorField& slope_now, const VectorField& slope_before) {
   const double rho = domain.gas.density;
+  double magnitudes = 0.0;
   for (int d = 0; d < 3; ++d) {
     if (!domain.solved[d]) continue;
     const double g = domain.gas.gravity[d] - driving.value()[d] / rho;
@@ -81,19 +82,22 @@ void GasSolver::State::predict(double dt, const AdamsBashforth& weights,
     const double* bv = medium.exchange_momentum[d].data();
     double* u = velocity[d].data();
     if (medium.has_grains) {
-      for_box(all_faces(domain, d), velocity[d], [=](std::ptrdiff_t n) {
+      magnitudes += sum_box(all_faces(domain, d), velocity[d], [=](std::ptrdiff_t n) {
         const double mass = eps[n] * rho;
         const double force = weights.now * now[n] + weights.before * before[n] + bv[n];
         const double predicted = (mass * (u[n] + dt * g) + dt * force) / (mass + dt * b[n]);
         u[n] = part[n] != 0.0 ? predicted : u[n];
+        return std::abs(u[n]);
       });
     } else {
-      for_box(all_faces(domain, d), velocity[d], [=](std::ptrdiff_t n) {
+      magnitudes += sum_box(all_faces(domain, d), velocity[d], [=](std::ptrdiff_t n) {
         const double force = weights.now * now[n] + weights.before * before[n];
         u[n] = part[n] != 0.0 ? u[n] + dt * (force / rho + g) : u[n];
+        return std::abs(u[n]);
       });
     }
   }
+  return magnitudes;
 }
 
 // Of the pressure of the last step, without the driving gradient, which acts with gravity.
@@ -128,7 +132,8 @@ void GasSolver::State::set_right_hand_side(VectorField& result, double dt) const
 }
 
 // See implicit_viscosity.cpp.
-int GasSolver::State::predict_implicitly(double dt, const AdamsBashforth& weights) {
+double GasSolver::State::predict_implicitly(StepReport& report, double dt,
+                                            const AdamsBashforth& weights) {
   const auto add = [&](const VectorField& field, double weight) {
     for (int d = 0; d < 3; ++d) {
       for_box(all_faces(domain, d), forces[d],
@@ -145,15 +150,14 @@ int GasSolver::State::predict_implicitly(double dt, const AdamsBashforth& weight
   add(old_slope.stress, stress_weights.before);
   set_right_hand_side(implicit_viscosity->right_hand_side(), dt);
   set_solid_faces(velocity, domain);
-  const int iterations = implicit_viscosity->solve(velocity, medium, immersed_boundary,
-                                                   {.dt = dt, .coming = stress_weights.coming});
+  report.viscous_iterations = implicit_viscosity->solve(
+      velocity, medium, immersed_boundary, {.dt = dt, .coming = stress_weights.coming});
   add(implicit_viscosity->stress(), stress_weights.coming);
   if (medium.has_scaling) {
     const double ratio = dt / explicit_viscous_step(domain, TimeScheme::ab2);
     immersed_boundary.scale_density(medium, domain, std::max(ratio, 1.0));
   }
-  predict(dt, {.now = 1.0, .before = 0.0}, forces, forces);
-  return iterations;
+  return predict(dt, {.now = 1.0, .before = 0.0}, forces, forces);
 }
 
 Vec3 GasSolver::State::impose_bodies(double dt) {
@@ -166,14 +170,11 @@ Vec3 GasSolver::State::impose_bodies(double dt) {
 
 void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double dt,
                                   const AdamsBashforth& weights, const Field* void_before) {
-  const double speed_before = speeds.maxCoeff();
-  if (implicit_viscosity) {
-    report.viscous_iterations = predict_implicitly(dt, weights);
-  } else {
-    predict(dt, weights, slope.total, old_slope.total);
-  }
+  const double magnitudes = implicit_viscosity ? predict_implicitly(report, dt, weights)
+                                               : predict(dt, weights, slope.total, old_slope.total);
+  check_finite(magnitudes, dt);
   clock.finish(report.times, Pass::predict);
-  set_solid_faces(velocity, domain);
+  if (domain.has_motion) set_solid_faces(velocity, domain);  // else they have what they had
   fill_velocity_ghosts(domain, medium, velocity);
   if (domain.walls.has_bodies) {
     report.momentum.body = impose_bodies(dt);
@@ -183,7 +184,6 @@ void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double d
     driving.keep_mean_flow(velocity, medium, dt);
     fill_velocity_ghosts(domain, medium, velocity);
   }
-  check_finite(dt, speed_before);
   clock.finish(report.times, Pass::boundary);
   const Projection::Balance balance = projection.set_equation(medium, void_before, velocity, dt);
   report.removed_mean = balance.removed_mean;
@@ -191,7 +191,7 @@ void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double d
   clock.finish(report.times, Pass::equation);
   report.pressure = projection.solve(pressure);
   clock.finish(report.times, Pass::solve);
-  projection.correct(velocity, pressure, medium, dt);
+  check_finite(projection.correct(velocity, pressure, medium, dt), dt);
   if (domain.walls.spans_bodies) {
     report.momentum.body +=
         volume_forcing.add_pressure(projection.pressure_gradient(), domain, medium, dt);
@@ -231,16 +231,12 @@ Vec3 GasSolver::State::implicit_viscous_impulse(double dt) const {
                stress_weights.before * old_slope.viscous);
 }
 
-void GasSolver::State::check_finite(double dt, double speed_before) const {
-  double sum = 0.0;
-  for (int d = 0; d < 3; ++d) {
-    sum += sum_box(all_faces(domain, d), velocity[d],
-                   [u = velocity[d].data()](std::ptrdiff_t n) { return std::abs(u[n]); });
-  }
-  if (std::isfinite(sum_over_ranks(domain.decomposition, sum))) return;
+// `magnitudes` is the sum of |u| on this rank's faces, `speeds` those of the last step.
+void GasSolver::State::check_finite(double magnitudes, double dt) const {
+  if (std::isfinite(sum_over_ranks(domain.decomposition, magnitudes))) return;
   std::ostringstream message;
   message << "the gas velocity is no longer finite at t = " << time << " s after a step of " << dt
-          << " s; the largest velocity before it was " << speed_before
+          << " s; the largest velocity before it was " << speeds.maxCoeff()
           << " m/s. Take a smaller step, or look for grains or inlets that drive it";
   throw SolveFailure(message.str());
 }
@@ -289,8 +285,6 @@ StepReport GasSolver::advance(double dt) {
   s.time += dt;
   s.previous_dt = dt;
   s.steps_from_start = std::min(s.steps_from_start + 1, settled_steps);
-  s.check_finite(dt, s.speeds.maxCoeff());
-
   report.backflow = backflow(domain, s.medium, s.velocity);
   report.driving_gradient = s.driving.value();
   report.divergence = s.projection.divergence(s.medium, old_void_fraction, s.velocity, dt);
@@ -309,8 +303,8 @@ StepReport GasSolver::advance(double dt) {
   s.momentum =
       add_forces(budget, domain, s.medium, s.velocity, s.projection.pressure_gradient(), dt);
   budget.stored = *s.momentum - momentum_before;
-  add_pressure_reactions(budget, domain, s.pressure, s.projection.pressure_gradient(),
-                         s.driving.value(), dt);
+  add_pressure_reactions(budget, domain, s.uneven_cells, s.pressure,
+                         s.projection.pressure_gradient(), s.driving.value(), dt);
   sum_over_ranks(domain.decomposition, budget);
   clock.finish(report.times, Pass::budget);
   if (s.means.started()) s.means.add(s.medium, s.velocity, s.projection.pressure_gradient(), dt);

@@ -32,10 +32,12 @@ GasSolver::State::State(const GasCase& given, MPI_Comm communicator)
       immersed_boundary(domain),
       volume_forcing(domain),
       loads(domain),
+      uneven_cells(find_uneven_cells(domain)),
       projection(domain, given.numerics),
       driving(domain),
       velocity(fields(domain.size())),
-      pressure(domain.size()) {
+      pressure(domain.size()),
+      slope_evaluation(domain, given.numerics.convection) {
   slope.total = old_slope.total = fields(domain.size());
   if (given.numerics.viscosity == Viscosity::implicit_step && domain.gas.viscosity > 0.0) {
     GASGRAIN_ASSERT(given.numerics.time_scheme == TimeScheme::ab2 && !domain.walls.spans_bodies);
@@ -99,6 +101,7 @@ void GasSolver::State::follow_walls(const VectorField& took_part) {
   if (medium.has_grains) update(medium.edges, domain, medium.cell_void_fraction);
   immersed_boundary = ImmersedBoundary(domain);
   loads.find_walls();
+  uneven_cells = find_uneven_cells(domain);
   projection.follow_walls(pressure, took_part);
   if (driving.present()) driving.add_to(projection.pressure_gradient());
 }

@@ -14,6 +14,7 @@
 #include "cfd/immersed_boundary.hpp"
 #include "cfd/implicit_viscosity.hpp"
 #include "cfd/interval_means.hpp"
+#include "cfd/momentum_budget.hpp"
 #include "cfd/momentum_slope.hpp"
 #include "cfd/projection.hpp"
 #include "cfd/volume_forcing.hpp"
@@ -31,11 +32,12 @@ struct GasSolver::State {
   bool move_bodies(double new_time);  // the shape of some body has moved
   void follow_walls(const VectorField& took_part);
   void evaluate_slope();
-  // Steps 1 and 2 with the two slopes by their weights.
-  void predict(double dt, const AdamsBashforth& weights, const VectorField& now,
-               const VectorField& before);
-  // The same with the stress at the end of the step; returns the iterations it took.
-  int predict_implicitly(double dt, const AdamsBashforth& weights);
+  // Steps 1 and 2 with the two slopes by their weights. Returns the sum of |u^| over this rank's
+  // faces, m/s.
+  double predict(double dt, const AdamsBashforth& weights, const VectorField& now,
+                 const VectorField& before);
+  // The same with the stress at the end of the step.
+  double predict_implicitly(StepReport& report, double dt, const AdamsBashforth& weights);
   void set_right_hand_side(VectorField& result, double dt) const;
   double old_gradient(int d, std::ptrdiff_t n) const;  // Pa/m
   Vec3 impose_bodies(double dt);                       // step 3; the momentum that it adds, N s
@@ -44,7 +46,7 @@ struct GasSolver::State {
                   const Field* void_before);
   void measure_loads(MomentumBudget& budget, double dt, const AdamsBashforth& weights);
   Vec3 implicit_viscous_impulse(double dt) const;
-  void check_finite(double dt, double speed_before) const;
+  void check_finite(double magnitudes, double dt) const;
   // Face values as the grains of a cell see them.
   void sample(VectorField& velocity, VectorField& pressure_gradient, const VectorField& u,
               const VectorField& gradient) const;
@@ -60,6 +62,7 @@ struct GasSolver::State {
   ImmersedBoundary immersed_boundary;
   VolumeForcing volume_forcing;  // takes its place when the walls span bodies
   BodyLoads loads;
+  UnevenCells uneven_cells;
   Projection projection;
   DrivingGradient driving;
   VectorField velocity;
@@ -67,6 +70,7 @@ struct GasSolver::State {
   Vec3 speeds = Vec3::Zero();  // largest |u| per direction of all ranks, m/s
   Field pressure;
   Field old_void_fraction;  // of the cells at the start of the step
+  SlopeEvaluation slope_evaluation;
   MomentumSlope slope, old_slope;
   std::optional<ImplicitViscosity> implicit_viscosity;
   StressWeights stress_weights;  // of this step, with implicit viscosity

@@ -37,14 +37,58 @@ double pressure_on_side(const GasDomain& domain, const Field& pressure, const Fi
                       : pressure[cell] + half * gradient[cell];
 }
 
+// Of one direction.
+struct FaceFields {
+  const double *volume, *gradient, *eps, *u, *b, *bv;
+};
+
+struct FaceSums {
+  double gradient_on_all = 0.0, gradient_on_gas = 0.0;  // V grad p, V eps grad p
+  double flow = 0.0, gas_volume = 0.0;                  // V eps u, V eps
+  double drag = 0.0;                                    // V (B v - B u)
+};
+
+void add_row(FaceSums& sums, FaceFields f, std::ptrdiff_t row, int length) {
+  double on_all = 0.0, on_gas = 0.0, flow = 0.0, gas_volume = 0.0, drag = 0.0;
+#pragma omp simd reduction(+ : on_all, on_gas, flow, gas_volume, drag)
+  for (std::ptrdiff_t n = row; n < row + length; ++n) {
+    const double gas = f.volume[n] * f.eps[n];
+    on_all += f.volume[n] * f.gradient[n];
+    on_gas += gas * f.gradient[n];
+    flow += gas * f.u[n];
+    gas_volume += gas;
+    drag += f.volume[n] * (f.bv[n] - f.b[n] * f.u[n]);
+  }
+  sums.gradient_on_all += on_all;
+  sums.gradient_on_gas += on_gas;
+  sums.flow += flow;
+  sums.gas_volume += gas_volume;
+  sums.drag += drag;
+}
+
+void add_row_without_grains(FaceSums& sums, FaceFields f, std::ptrdiff_t row, int length) {
+  double on_all = 0.0, flow = 0.0, gas_volume = 0.0;
+#pragma omp simd reduction(+ : on_all, flow, gas_volume)
+  for (std::ptrdiff_t n = row; n < row + length; ++n) {
+    on_all += f.volume[n] * f.gradient[n];
+    flow += f.volume[n] * f.u[n];
+    gas_volume += f.volume[n];
+  }
+  sums.gradient_on_all += on_all;
+  sums.flow += flow;
+  sums.gas_volume += gas_volume;
+}
+
 // sum over faces of V grad p along d, from the cells and the outlets.
-double integral_by_parts(const GasDomain& domain, const Field& pressure, int d) {
+double integral_by_parts(const GasDomain& domain, const UnevenCells& uneven, const Field& pressure,
+                         int d) {
   const Field& volume = domain.control_volume[d];
   const std::ptrdiff_t s = volume.stride(d);
   const double* v = volume.data();
   const double* p = pressure.data();
-  double sum = sum_cells(pressure, [=](std::ptrdiff_t n) { return p[n] * (v[n] - v[n + s]); }) /
-               domain.spacing[d];
+  double sum = 0.0;
+  for (const std::ptrdiff_t n : uneven[d]) sum += p[n] * (v[n] - v[n + s]);
+  sum /= domain.spacing[d];
   for (int side = 0; side < 2; ++side) {
     const double outwards = side == 0 ? -1.0 : 1.0;
     // half the spacing: the cell's coefficient doubles, and the outlet's pressure stands opposite
@@ -89,36 +133,34 @@ Vec3 add_forces(MomentumBudget& budget, const GasDomain& domain, const FaceMediu
                 const VectorField& velocity, const VectorField& pressure_gradient, double dt) {
   Vec3 momentum;
   for (int d = 0; d < 3; ++d) {
-    const double* volume = domain.control_volume[d].data();
-    const double* gradient = pressure_gradient[d].data();
-    const double* eps = medium.void_fraction[d].data();
-    const double* u = velocity[d].data();
-    const double* b = medium.momentum_exchange[d].data();
-    const double* bv = medium.exchange_momentum[d].data();
-    const bool has_weight = domain.gas.gravity[d] != 0.0;
-    double gas_volume = 0.0, gradient_on_all = 0.0, gradient_on_gas = 0.0, drag = 0.0;
-    double flow = 0.0;  // sum of V eps u
+    const FaceFields fields{domain.control_volume[d].data(),    pressure_gradient[d].data(),
+                            medium.void_fraction[d].data(),     velocity[d].data(),
+                            medium.momentum_exchange[d].data(), medium.exchange_momentum[d].data()};
+    FaceSums sums;
     for_each_row(all_faces(domain, d), velocity[d], [&](std::ptrdiff_t row, int length) {
-      const auto add = [=](double& sum, const auto& term) { sum += sum_row(row, length, term); };
-      add(gradient_on_all, [=](auto n) { return volume[n] * gradient[n]; });
-      if (!medium.has_grains) {
-        add(flow, [=](auto n) { return volume[n] * u[n]; });
-        if (has_weight) add(gas_volume, [=](auto n) { return volume[n]; });
-        return;
-      }
-      add(flow, [=](auto n) { return volume[n] * eps[n] * u[n]; });
-      add(gradient_on_gas, [=](auto n) { return volume[n] * eps[n] * gradient[n]; });
-      if (has_weight) add(gas_volume, [=](auto n) { return volume[n] * eps[n]; });
-      add(drag, [=](auto n) { return volume[n] * (bv[n] - b[n] * u[n]); });
+      medium.has_grains ? add_row(sums, fields, row, length)
+                        : add_row_without_grains(sums, fields, row, length);
     });
-    if (!medium.has_grains) gradient_on_gas = gradient_on_all;
-    budget.pressure[d] -= dt * gradient_on_gas;
-    budget.pressure_on_grains[d] -= dt * (gradient_on_all - gradient_on_gas);
-    budget.gravity[d] += dt * domain.gas.density * domain.gas.gravity[d] * gas_volume;
-    budget.drag[d] += dt * drag;
-    momentum[d] = domain.gas.density * flow;
+    if (!medium.has_grains) sums.gradient_on_gas = sums.gradient_on_all;
+    budget.pressure[d] -= dt * sums.gradient_on_gas;
+    budget.pressure_on_grains[d] -= dt * (sums.gradient_on_all - sums.gradient_on_gas);
+    budget.gravity[d] += dt * domain.gas.density * domain.gas.gravity[d] * sums.gas_volume;
+    budget.drag[d] += dt * sums.drag;
+    momentum[d] = domain.gas.density * sums.flow;
   }
   return momentum;
+}
+
+UnevenCells find_uneven_cells(const GasDomain& domain) {
+  UnevenCells uneven;
+  for (int d = 0; d < 3; ++d) {
+    const Field& volume = domain.control_volume[d];
+    for_each_cell(domain.size(), [&](int i, int j, int k) {
+      const std::ptrdiff_t n = volume.index(i, j, k);
+      if (volume[n] != volume[n + volume.stride(d)]) uneven[d].push_back(n);
+    });
+  }
+  return uneven;
 }
 
 double side_force(const GasDomain& domain, const Field& pressure,
@@ -142,7 +184,8 @@ double side_open_area(const GasDomain& domain, int direction, int side) {
   return area;
 }
 
-void add_pressure_reactions(MomentumBudget& budget, const GasDomain& domain, const Field& pressure,
+void add_pressure_reactions(MomentumBudget& budget, const GasDomain& domain,
+                            const UnevenCells& uneven, const Field& pressure,
                             const VectorField& pressure_gradient, const Vec3& uniform_gradient,
                             double dt) {
   for (int d = 0; d < 3; ++d) {
@@ -159,7 +202,7 @@ void add_pressure_reactions(MomentumBudget& budget, const GasDomain& domain, con
     const double sides = side_force(domain, pressure, pressure_gradient, d, 0) -
                          side_force(domain, pressure, pressure_gradient, d, 1);
     budget.side_pressure[d] += dt * sides;
-    budget.body_pressure[d] -= dt * (integral_by_parts(domain, pressure, d) + sides);
+    budget.body_pressure[d] -= dt * (integral_by_parts(domain, uneven, pressure, d) + sides);
   }
 }
 

@@ -1,6 +1,9 @@
 // Sums over control volumes that make up the momentum budget of a step.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "cfd/face_medium.hpp"
 #include "cfd/gas_domain.hpp"
 #include "cfd/gas_solver.hpp"
@@ -26,10 +29,16 @@ double side_force(const GasDomain& domain, const Field& pressure,
                   const VectorField& pressure_gradient, int direction, int side);
 double side_open_area(const GasDomain& domain, int direction, int side);  // m^2
 
+// Owned cells whose two faces along a direction have different control volumes, as storage indices:
+// cells at bodies and sides. Again after the walls have moved.
+using UnevenCells = std::array<std::vector<std::ptrdiff_t>, 3>;
+UnevenCells find_uneven_cells(const GasDomain& domain);
+
 // Adds the same pressure force from the cells' side: of the sides and of the bodies. A
 // `uniform_gradient` [Pa/m] of a periodic direction acts on the whole cross-section of its sides;
 // what bodies occupy of the volume between is taken by them.
-void add_pressure_reactions(MomentumBudget& budget, const GasDomain& domain, const Field& pressure,
+void add_pressure_reactions(MomentumBudget& budget, const GasDomain& domain,
+                            const UnevenCells& uneven, const Field& pressure,
                             const VectorField& pressure_gradient, const Vec3& uniform_gradient,
                             double dt);
 

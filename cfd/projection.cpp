@@ -116,7 +116,7 @@ void Projection::find_regions() {
 }
 
 void Projection::set_coefficients(const FaceMedium& medium, double dt) {
-  system_.diagonal.fill(0.0);
+  for (const OutletTerm& term : outlet_terms_) system_.diagonal[term.cell] = 0.0;
   outlet_terms_.clear();
   for (int d = 0; d < 3; ++d) {
     with_faces(medium, domain_.gas.density, dt, d,
@@ -248,15 +248,13 @@ void Projection::check(const PressureReport& report) const {
   throw SolveFailure(message.str());
 }
 
-void Projection::set_gradient(const Field& pressure) {
+// follow(d, part) for parts of the faces of every direction as soon as their gradient is set.
+template <class Follow>
+void Projection::set_gradient(const Field& pressure, const Follow& follow) {
   for (int d = 0; d < 3; ++d) {
     Field& gradient = gradient_[d];
     const Field& part = domain_.walls.takes_part[d];
     const double scale = 1.0 / domain_.spacing[d];
-    for_box(
-        inner_faces(domain_, d), pressure,
-        [s = pressure.stride(d), scale, p = pressure.data(), open = part.data(),
-         g = gradient.data()](std::ptrdiff_t n) { g[n] = open[n] * scale * (p[n] - p[n - s]); });
     for (int side = 0; side < 2; ++side) {
       const double outwards = side == 0 ? -1.0 : 1.0;
       for_each_outlet_face(domain_, d, side,
@@ -265,8 +263,19 @@ void Projection::set_gradient(const Field& pressure) {
                              gradient[face] = part[face] * 2.0 * scale * rise;
                            });
     }
+    for_each_part(all_faces(domain_, d), [&](const IndexBox& faces) {
+      for_box(
+          intersection(faces, inner_faces(domain_, d)), pressure,
+          [s = pressure.stride(d), scale, p = pressure.data(), open = part.data(),
+           g = gradient.data()](std::ptrdiff_t n) { g[n] = open[n] * scale * (p[n] - p[n - s]); });
+      follow(d, faces);
+    });
   }
   fill_ghosts(domain_.decomposition, gradient_);
+}
+
+void Projection::set_gradient(const Field& pressure) {
+  set_gradient(pressure, [](int, const IndexBox&) {});
 }
 
 // A region without outlet gets what the bodies leave to it minus what they take in equal measure
@@ -325,19 +334,22 @@ PressureReport Projection::solve(Field& pressure) {
   return report;
 }
 
-void Projection::correct(VectorField& velocity, Field& pressure, const FaceMedium& medium,
-                         double dt) {
+double Projection::correct(VectorField& velocity, Field& pressure, const FaceMedium& medium,
+                           double dt) {
   set_pressure_means(pressure, reference_);
-  set_gradient(pressure);
-  for (int d = 0; d < 3; ++d) {
-    if (!domain_.solved[d]) continue;
+  double magnitudes = 0.0;
+  set_gradient(pressure, [&](int d, const IndexBox& part) {
+    if (!domain_.solved[d]) return;
     with_faces(medium, domain_.gas.density, dt, d, [&](const auto& faces) {
-      for_box(all_faces(domain_, d), velocity[d],
-              [faces, u = velocity[d].data(), g = gradient_[d].data()](std::ptrdiff_t n) {
-                u[n] -= faces.mobility(n) * g[n];
-              });
+      magnitudes +=
+          sum_box(part, velocity[d],
+                  [faces, u = velocity[d].data(), g = gradient_[d].data()](std::ptrdiff_t n) {
+                    u[n] -= faces.mobility(n) * g[n];
+                    return std::abs(u[n]);
+                  });
     });
-  }
+  });
+  return magnitudes;
 }
 
 double Projection::divergence(const FaceMedium& medium, const Field* old_void_fraction,

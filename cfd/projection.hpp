@@ -37,8 +37,8 @@ class Projection {
   PressureReport solve(Field& pressure);
 
   // u = u* - (c/eps) grad p on the faces that take part; the mean of p becomes 0 in regions without
-  // outlet.
-  void correct(VectorField& velocity, Field& pressure, const FaceMedium& medium, double dt);
+  // outlet. Returns the sum of |u| over this rank's faces, m/s.
+  double correct(VectorField& velocity, Field& pressure, const FaceMedium& medium, double dt);
 
   // Goes on from a pressure of an earlier run, ghosts filled.
   void restore(const Field& pressure) { set_gradient(pressure); }
@@ -67,6 +67,8 @@ class Projection {
   void set_pressure_means(Field& pressure, double reference);
   void check(const PressureReport& report) const;
   void set_gradient(const Field& pressure);
+  template <class Follow>
+  void set_gradient(const Field& pressure, const Follow& follow);
 
   // What the pressure behind an outlet adds to the right-hand side of a cell.
   struct OutletTerm {
