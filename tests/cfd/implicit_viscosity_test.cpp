@@ -122,6 +122,42 @@ TEST(ImplicitViscosity, closes_the_momentum_budget_and_the_loads) {
   }
 }
 
+// A ball that is pulled through viscous gas in a box with an outlet.
+GasCase pulled_ball() {
+  GasCase c = box_case(Vec3(1, 1, 1.5), {10, 10, 15});
+  c.boundaries[2][1] = side(BoundaryType::outlet);
+  c.gas.viscosity = 0.1;
+  c.numerics.pressure_tolerance = 1e-10;
+  c.bodies = bodies(
+      "[[body]]\nname='ball'\nsphere={center=[0.52,0.47,0.5],radius=0.23}\n"
+      "motion={translate={velocity=[0,0,0.5]}}\n");
+  return c;
+}
+
+// Its flow after 0.4 s, in equal steps of about `dt` s.
+VectorField flow_behind_ball(const GasCase& c, double dt) {
+  GasSolver solver(c, MPI_COMM_WORLD);
+  const int steps = static_cast<int>(std::ceil(0.4 / dt));
+  for (int n = 0; n < steps; ++n) {
+    const StepReport report = solver.advance(0.4 / steps);
+    const double scale = testing::turnover(report.momentum);
+    EXPECT_LT(testing::imbalance(report.momentum).norm(), 1e-11 * scale) << n;
+    EXPECT_LT(testing::pressure_imbalance(report.momentum).norm(), 1e-11 * scale) << n;
+    EXPECT_LT(report.divergence, 1e-8) << n;
+  }
+  return solver.velocity();
+}
+
+// Faces that a body gives free make the flow depend on the step: 4 % at the explicit limit.
+TEST(ImplicitViscosity, is_around_a_moving_body_as_near_to_short_steps_as_explicit_viscosity) {
+  const GasCase c = pulled_ball();
+  const double limit = GasSolver(c, MPI_COMM_WORLD).step_limits().viscosity;
+  const VectorField exact = flow_behind_ball(c, 0.2 * limit);
+  const double by_explicit = testing::distance(flow_behind_ball(c, limit), exact);
+  const double by_implicit = testing::distance(flow_behind_ball(implicit(c), 10.0 * limit), exact);
+  EXPECT_LT(by_implicit, 2.0 * by_explicit) << by_explicit;
+}
+
 // Kinetic energy after some long steps, the same on any number of ranks.
 double energy(MPI_Comm communicator) {
   GasCase c = implicit(creeping_channel());

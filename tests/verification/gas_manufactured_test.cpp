@@ -89,13 +89,20 @@ MmsError error_of(const GasSolver& solver, double h) {
   return {std::sqrt(velocity), std::sqrt(pressure - 4.0 * mean * mean)};
 }
 
+// With dt = share_of_diffusion h^2 / nu.
+struct Stepping {
+  Viscosity viscosity = Viscosity::explicit_step;
+  double share_of_diffusion = 0.1;
+};
+
 // Of the steady state, reached from the exact solution.
-MmsError manufactured_error(int cells, double drag) {
+MmsError manufactured_error(int cells, double drag, const Stepping& stepping = {}) {
   const double h = 2.0 / cells;
   GasCase c = testing::box_case(Vec3(1, h, 1), {cells, 1, cells});
   c.grid.lower = Vec3(-1, 0, -1);
   c.numerics.convection = Convection::central;
   c.numerics.pressure_tolerance = 1e-7;
+  c.numerics.viscosity = stepping.viscosity;
   testing::set_sides(c, 1, BoundaryType::slip);
   GasSolver solver(c, MPI_COMM_WORLD);
   GrainPhase& grains = solver.grains();
@@ -110,7 +117,7 @@ MmsError manufactured_error(int cells, double drag) {
   }
   solver.set_velocity([](const Vec3& x) { return Manufactured(x).velocity(); });
   solver.accept_void_fraction_as_old();
-  const double dt = 0.1 * h * h;
+  const double dt = stepping.share_of_diffusion * h * h;
   for (double t = 0.0; t < 0.3; t += dt) solver.advance(dt);
   return error_of(solver, h);
 }
@@ -147,6 +154,20 @@ INSTANTIATE_TEST_SUITE_P(Drag, Mms,
                          ::testing::Values(DragCase{0.0, "manufactured_no_drag"},
                                            DragCase{1e3, "manufactured_drag_1e3"},
                                            DragCase{1e5, "manufactured_drag_1e5"}));
+
+// Ten times the largest explicit step: the stress is solved for, with the void fraction's gradient.
+TEST(MmsWithImplicitViscosity, has_the_order_and_the_errors_of_explicit_viscosity) {
+  constexpr Stepping implicit{Viscosity::implicit_step, 0.75};
+  for (const double drag : {0.0, 1e3}) {
+    const MmsError coarse = manufactured_error(16, drag, implicit);
+    const MmsError fine = manufactured_error(32, drag, implicit);
+    EXPECT_GT(observed_order(coarse.velocity, fine.velocity), 1.9) << drag;
+    EXPECT_GT(observed_order(coarse.pressure, fine.pressure), 1.9) << drag;
+    const MmsError explicit_viscosity = manufactured_error(32, drag);
+    EXPECT_NEAR(fine.velocity, explicit_viscosity.velocity, 0.05 * fine.velocity) << drag;
+    EXPECT_NEAR(fine.pressure, explicit_viscosity.pressure, 0.05 * fine.pressure) << drag;
+  }
+}
 
 }  // namespace
 }  // namespace gasgrain::cfd
