@@ -120,7 +120,8 @@ double gradient_noise(double grain, const std::string& mapping) {
 }
 
 TEST(DriftingPacking, makes_little_noise_in_the_pressure_gradient) {
-  Report report("drifting_packing", "rigid packing drifting with its gas: |grad p| over the bed's");
+  Report report("drifting_packing",
+                "rigid packing drifting with its gas: gradient of the pressure over the bed's");
   for (const auto& [grain, label] : {std::pair(5e-4, "0.5 mm"), std::pair(1e-3, "1.0 mm")}) {
     for (const std::string& mapping : mapping_names()) {
       const std::string quantity = mapping + "; grains of " + label;

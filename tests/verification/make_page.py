@@ -13,7 +13,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 DOCS = HERE.parents[1] / "docs"
 RESULTS = HERE / "results"
 
-HEAD = """# Verification of gas solver and walls
+HEAD = """# Verification of gas, walls and grains in gas
 
 Made by `tests/verification/run` from the stored results; do not edit by hand. Every program of
 [tests/verification](../tests/verification) asserts the same bounds when it runs as a test:
