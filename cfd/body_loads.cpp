@@ -97,19 +97,20 @@ void BodyLoads::find_walls() {
     });
   }
   for_each_cell(domain_.size(), [&](int i, int j, int k) {
-    bool disturbed = domain_.open_share(i, j, k) < 1.0;
+    Vec3 below, above;
     for (int d = 0; d < 3; ++d) {
-      Index3 above{i, j, k};
-      ++above[d];
-      disturbed = disturbed || std::abs(missing(d, {i, j, k})) > tolerance ||
-                  std::abs(missing(d, above)) > tolerance;
+      Index3 next{i, j, k};
+      ++next[d];
+      below[d] = missing(d, {i, j, k});
+      above[d] = missing(d, next);
     }
-    if (!disturbed) return;
+    const double largest = std::max(below.cwiseAbs().maxCoeff(), above.cwiseAbs().maxCoeff());
+    if (domain_.open_share(i, j, k) == 1.0 && largest <= tolerance) return;
     const Vec3 centre = domain_.cell_centre(i, j, k);
     const int body = nearest_body(domain_.bodies, shapes, centre);
     const DistanceSample sample = shapes[body]->sample(centre);
     const Vec3 wall = centre - sample.distance * sample.gradient;
-    cells_.push_back({{i, j, k}, body, wall - reference[body]});
+    cells_.push_back({{i, j, k}, body, wall - reference[body], below, above});
   });
 }
 
@@ -157,18 +158,15 @@ double BodyLoads::side_term(int d, int side, const Index3& local, const Field& p
 }
 
 // Force of the gas's pressure on the body next to the cell, N.
-Vec3 BodyLoads::pressure_on(const Index3& local, const Field& pressure,
+Vec3 BodyLoads::pressure_on(const Cell& cell, const Field& pressure,
                             const VectorField& gradient) const {
   Vec3 force = Vec3::Zero();
+  const Index3& local = cell.local;
   const std::ptrdiff_t n = pressure.index(local[0], local[1], local[2]);
   const Index3& first = domain_.decomposition.block().lower;
   for (int d = 0; d < 3; ++d) {
     if (!domain_.solved[d]) continue;
-    Index3 above = local;
-    ++above[d];
-    const double lower = domain_.control_volume[d][n] - undisturbed_volume(d, local);
-    const double upper =
-        domain_.control_volume[d][n + pressure.stride(d)] - undisturbed_volume(d, above);
+    const double lower = -cell.missing_below[d], upper = -cell.missing_above[d];
     force[d] += pressure[n] * (lower - upper) / domain_.spacing[d];
     if (domain_.is_periodic(d)) continue;
     for (int side = 0; side < 2; ++side) {
@@ -197,7 +195,7 @@ void BodyLoads::add_pressure(const Field& pressure, const VectorField& gradient,
     }
   }
   for (const Cell& cell : cells_) {
-    const Vec3 received = dt * pressure_on(cell.local, pressure, gradient);
+    const Vec3 received = dt * pressure_on(cell, pressure, gradient);
     loads_[cell.body].pressure += received;
     loads_[cell.body].pressure_torque += cell.arm.cross(received);
   }

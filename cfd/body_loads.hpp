@@ -48,6 +48,8 @@ class BodyLoads {
     Index3 local;
     int body;
     Vec3 arm;  // from the torque point to the surface next to it, m
+    // Control volume that the body takes from its lower and upper face of each direction, m^3.
+    Vec3 missing_below = Vec3::Zero(), missing_above = Vec3::Zero();
   };
   struct Face {
     std::ptrdiff_t face;
@@ -57,7 +59,7 @@ class BodyLoads {
   };
 
   double undisturbed_volume(int d, const Index3& local) const;
-  Vec3 pressure_on(const Index3& local, const Field& pressure, const VectorField& gradient) const;
+  Vec3 pressure_on(const Cell& cell, const Field& pressure, const VectorField& gradient) const;
   double side_term(int d, int side, const Index3& local, const Field& pressure,
                    const VectorField& gradient) const;
 

@@ -25,10 +25,11 @@ struct CentralValue {
 
 struct VanLeerValue {
   static double carried(double flux, const double* u, std::ptrdiff_t n, std::ptrdiff_t a) {
-    const double across = u[n] - u[n - a];
-    const double behind = flux > 0.0 ? u[n - a] - u[n - 2 * a] : u[n] - u[n + a];
-    const double ahead = flux > 0.0 ? across : -across;
-    const double upwind = flux > 0.0 ? u[n - a] : u[n];
+    // all four are read whatever the sign: loads that depend on it do not vectorize well
+    const double under = u[n - 2 * a], below = u[n - a], above = u[n], over = u[n + a];
+    const double behind = flux > 0.0 ? below - under : above - over;
+    const double ahead = flux > 0.0 ? above - below : below - above;
+    const double upwind = flux > 0.0 ? below : above;
     const double product = behind * ahead;
     return product > 0.0 ? upwind + product / (behind + ahead) : upwind;
   }

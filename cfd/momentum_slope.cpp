@@ -38,13 +38,18 @@ void set_sides(Sides& sides, const IndexBox& box, const Field& like, std::ptrdif
   double* flux = sides.flux.data() - origin;
   double* carried = sides.carried.data() - origin;
   double* strain = sides.stress.data() - origin;
-  for_box(box, like, [=](std::ptrdiff_t n) {
-    if constexpr (present<TransportOf>) {
-      const double f = transport.flux(n);
-      flux[n] = f;
-      carried[n] = transport.carried(f, n);
+  for_each_row(box, like, [=](std::ptrdiff_t row, int length) {
+    const TransportOf convection = transport;  // a copy that no store can change: its members stay
+    const Stress friction = stress;            // in registers
+#pragma omp simd
+    for (std::ptrdiff_t n = row; n < row + length; ++n) {
+      if constexpr (present<TransportOf>) {
+        const double f = convection.flux(n);
+        flux[n] = f;
+        carried[n] = convection.carried(f, n);
+      }
+      if constexpr (present<Stress>) strain[n] = friction(n);
     }
-    if constexpr (present<Stress>) strain[n] = stress(n);
   });
 }
 
