@@ -29,8 +29,8 @@ void ContactList::start(int local_count, int dummy, PairCounts room, Precision p
   widest_pair_ = 0;
   row_begin_.assign(1, 0);
   make_room(row_begin_, local_count + 1);
-  candidate_second_.clear();
-  make_room(candidate_second_, room.candidates + group_size);
+  partners_.clear();
+  make_room(partners_, local_count);
   near_begin_.assign(blocks_of(local_count) + 1, 0);
   near_first_.clear();
   near_second_.clear();
@@ -58,19 +58,17 @@ void ContactList::add_touching(int candidate, const double* spring) {
   std::visit(
       [&]<class Real>(Springs<Real>& springs) {
         springs.push_back({{static_cast<Real>(spring[0]), static_cast<Real>(spring[1]),
-                            static_cast<Real>(spring[2])},
-                           0});
+                            static_cast<Real>(spring[2])}});
       },
       springs_);
 }
 
-void ContactList::end_row() {
-  const int grain = static_cast<int>(row_begin_.size()) - 1;
-  for (std::size_t p = row_begin_.back(); p < candidate_second_.size(); ++p) {
-    const int second = candidate_second_[p];
-    if (second < local_count_) widest_pair_ = std::max(widest_pair_, second - grain);
-  }
-  row_begin_.push_back(static_cast<int>(candidate_second_.size()));
+void ContactList::add_row(std::span<const int> second) {
+  const int grain = static_cast<int>(partners_.size());
+  for (const int partner : second)
+    if (partner < local_count_) widest_pair_ = std::max(widest_pair_, partner - grain);
+  partners_.push_back(second.data());
+  row_begin_.push_back(row_begin_.back() + static_cast<int>(second.size()));
 }
 
 // With the padding of each block and of the end.
@@ -80,11 +78,10 @@ std::size_t ContactList::most_near_pairs(std::size_t candidates) const {
 
 void ContactList::find_near_pairs(const GrainRecord* grains, double margin) {
   const ContactKernel& kernel = contact_kernel();
-  candidate_second_.resize(row_begin_.back() + group_size, dummy_ + 1);
   near_first_.clear();
   near_second_.clear();
   near_candidate_.clear();
-  const std::size_t most = most_near_pairs(candidate_second_.size());
+  const std::size_t most = most_near_pairs(row_begin_.back());
   for (std::vector<int>* list : {&near_first_, &near_second_, &near_candidate_})
     make_room(*list, most);
   for (int block = 0; block < block_count(); ++block) {
@@ -92,13 +89,13 @@ void ContactList::find_near_pairs(const GrainRecord* grains, double margin) {
     const int begin = row_begin_[block * grains_per_block];
     const int end = row_begin_[std::min(local_count_, (block + 1) * grains_per_block)];
     places_.resize(end - begin + 2 * group_size);
-    list_first_grains(block);
-    const int* second = candidate_second_.data() + begin;
-    const int count = kernel.near_pairs(grains, {block_first_.data(), second, 0, end - begin},
-                                        margin, places_.data());
+    list_candidates(block);
+    const int count =
+        kernel.near_pairs(grains, {block_first_.data(), block_second_.data(), 0, end - begin},
+                          margin, places_.data());
     for (int n = 0; n < count; ++n) {
       near_first_.push_back(block_first_[places_[n]]);
-      near_second_.push_back(second[places_[n]]);
+      near_second_.push_back(block_second_[places_[n]]);
       near_candidate_.push_back(begin + places_[n]);
     }
     pad_to_group();
@@ -110,14 +107,17 @@ void ContactList::find_near_pairs(const GrainRecord* grains, double margin) {
   near_candidate_.resize(near_candidate_.size() + group_size, no_candidate);
 }
 
-// One for each candidate of the block, and padding: the list of all would be as long as that of
-// the second ones.
-void ContactList::list_first_grains(int block) {
+void ContactList::list_candidates(int block) {
   block_first_.clear();
+  block_second_.clear();
   const int last = std::min(local_count_, (block + 1) * grains_per_block);
-  for (int grain = block * grains_per_block; grain < last; ++grain)
-    block_first_.insert(block_first_.end(), row_end(grain) - row_begin(grain), grain);
+  for (int grain = block * grains_per_block; grain < last; ++grain) {
+    const int count = row_end(grain) - row_begin(grain);
+    block_first_.insert(block_first_.end(), count, grain);
+    block_second_.insert(block_second_.end(), partners_[grain], partners_[grain] + count);
+  }
   block_first_.insert(block_first_.end(), group_size, dummy_);
+  block_second_.insert(block_second_.end(), group_size, dummy_ + 1);
 }
 
 void ContactList::pad_to_group() {

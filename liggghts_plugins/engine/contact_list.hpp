@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -22,15 +23,18 @@ struct PairCounts {
 class ContactList {
  public:
   // Starts an empty list of candidates for grains 0 .. local_count - 1. Then, for every grain in
-  // order: end_row() after add_candidate() for each of its partners, which have larger indices, and
-  // add_touching() for those it touches, in the order of candidates.
+  // order: add_touching() for those partners it touches, in the order of candidates, and
+  // add_row(). Partners have larger indices.
   // `dummy` and dummy + 1 are indices of two grains that never touch. Room is
   // made for that many pairs.
   void start(int local_count, int dummy, PairCounts room = {},
              Precision precision = Precision::full);
-  void add_candidate(int second) { candidate_second_.push_back(second); }
   void add_touching(int candidate, const double* spring);
-  void end_row();
+  // Number of the first candidate of the next row.
+  int next_candidate() const { return row_begin_.back(); }
+  // `second`: the partners of the next grain; not copied, to be kept until the list is started
+  // anew.
+  void add_row(std::span<const int> second);
 
   int row_begin(int grain) const { return row_begin_[grain]; }
   int row_end(int grain) const { return row_begin_[grain + 1]; }
@@ -87,7 +91,7 @@ class ContactList {
   std::size_t most_near_pairs(std::size_t candidates) const;
   void find_near_pairs(const GrainRecord* grains, double margin);
   void pad_to_group();
-  void list_first_grains(int block);
+  void list_candidates(int block);
   void restore_touching();
   template <class Real>
   void spread_springs(Springs<Real>& springs);
@@ -95,9 +99,9 @@ class ContactList {
   int local_count_ = 0;
   int dummy_ = 0;
   int widest_pair_ = 0;
-  std::vector<int> row_begin_;  // per grain, and the end
-  std::vector<int> candidate_second_;
-  std::vector<int> block_first_;  // of the candidates of one block
+  std::vector<int> row_begin_;                   // per grain, and the end
+  std::vector<const int*> partners_;             // per grain
+  std::vector<int> block_first_, block_second_;  // candidates of one block
 
   std::vector<int> near_begin_;  // per block, and the end
   std::vector<int> near_first_, near_second_, near_candidate_;

@@ -199,8 +199,7 @@ GASGRAIN_LANES_INLINE void loads_of_group(const ContactBatch& batch, SpringRecor
   Vector<Real> moment = {};
   if constexpr (model != TangentialModel::off) {
     Vector<Real> spring = {};
-    if constexpr (model == TangentialModel::history)
-      spring = vector_of(transposed(rows<Real>(springs, places, 0)));
+    if constexpr (model == TangentialModel::history) spring = springs_of(springs, places);
     const Vector<Real> f_t = tangential_force<Real, model>(c, f_n, n, v_t, batch.slip_time, spring);
     force = force + f_t;
     moment = cross(f_t, n);
@@ -210,7 +209,8 @@ GASGRAIN_LANES_INLINE void loads_of_group(const ContactBatch& batch, SpringRecor
 #pragma GCC unroll 8
       for (int lane = 0; lane < group_size; ++lane) {
         const Lanes<Real> pair = row_pair(stretched, lane);
-        store_quad(springs[places[lane]].displacement, lane < 4 ? low_half(pair) : high_half(pair));
+        store_three(springs[places[lane]].displacement,
+                    lane < 4 ? low_half(pair) : high_half(pair));
       }
     }
   }

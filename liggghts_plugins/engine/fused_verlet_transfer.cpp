@@ -89,14 +89,14 @@ void FusedVerlet::load_pairs() {
   ContactList& pairs = loop_.pairs();
   for (int i = 0; i < list.inum; ++i) {
     GASGRAIN_ASSERT(list.ilist[i] == i);
+    const std::span<const int> partners(list.firstneigh[i], list.numneigh[i]);
     for (int n = 0; n < list.numneigh[i]; ++n) {
-      const int j = list.firstneigh[i][n] & NEIGHMASK;
-      GASGRAIN_ASSERT(j > i);
-      pairs.add_candidate(j);
+      // without bonds, the bits that mark bonded partners are not set
+      GASGRAIN_ASSERT(partners[n] > i && (partners[n] & NEIGHMASK) == partners[n]);
       if (histories && histories->firstneigh[i][n])
-        pairs.add_touching(pairs.row_begin(i) + n, histories->firstdouble[i] + 3 * n + offset);
+        pairs.add_touching(pairs.next_candidate() + n, histories->firstdouble[i] + 3 * n + offset);
     }
-    pairs.end_row();
+    pairs.add_row(partners);
   }
 }
 

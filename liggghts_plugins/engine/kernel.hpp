@@ -65,8 +65,8 @@ struct ForceKernel {
   // bit per pair, and springs of pairs that have parted are set to zero.
   int (*touching_pairs)(const GrainRecord*, const PairRange&, unsigned char* touched,
                         SpringRecord<Real>* springs, int* places);
-  // Adds the loads of the contacts to the ring and advances the springs of the list. `uniform`: all
-  // grains are alike.
+  // Adds the loads of the contacts to the ring and advances the springs of the list, of which one
+  // value more is read behind the last contact's. `uniform`: all grains are alike.
   void (*contact_loads)(ContactBatch&, SpringRecord<Real>* springs, const PairModel&, bool uniform);
 };
 

@@ -51,6 +51,19 @@ GASGRAIN_LANES_INLINE void store_quad(Real* aligned, Quad<Real> value) {
   *reinterpret_cast<Quad<Real>*>(aligned) = value;
 }
 
+// Three values from anywhere; a fourth behind them is read, too.
+template <class Real>
+GASGRAIN_LANES_INLINE Quad<Real> load_three(const Real* values) {
+  Quad<Real> result;
+  __builtin_memcpy(&result, values, sizeof result);
+  return result;
+}
+
+template <class Real>
+GASGRAIN_LANES_INLINE void store_three(Real* values, Quad<Real> three) {
+  __builtin_memcpy(values, &three, 3 * sizeof(Real));
+}
+
 // In single precision or as they are.
 template <class Real>
 GASGRAIN_LANES_INLINE Lanes<Real> rounded(Lanes<double> a) {

@@ -47,6 +47,14 @@ GASGRAIN_LANES_INLINE FourLanes<Real> rows(const Record* base, const int* index,
   return {join(at(0), at(4)), join(at(1), at(5)), join(at(2), at(6)), join(at(3), at(7))};
 }
 
+template <class Real>
+GASGRAIN_LANES_INLINE Vector<Real> springs_of(const SpringRecord<Real>* springs,
+                                              const int* places) {
+  const auto at = [&](int lane) { return load_three(springs[places[lane]].displacement); };
+  return vector_of(transposed<Real>(
+      {join(at(0), at(4)), join(at(1), at(5)), join(at(2), at(6)), join(at(3), at(7))}));
+}
+
 GASGRAIN_LANES_INLINE FourLanes<double> operator-(const FourLanes<double>& i,
                                                   const FourLanes<double>& j) {
   return {i.a - j.a, i.b - j.b, i.c - j.c, i.d - j.d};

@@ -29,9 +29,8 @@ struct alignas(64) LoadRecord {
 
 // Real: double, or float in mixed precision.
 template <class Real>
-struct alignas(4 * sizeof(Real)) SpringRecord {
+struct SpringRecord {
   Real displacement[3];  // tangential, m
-  Real unused;
 };
 
 // Precision of contact forces and springs. Positions, radii, velocities, the test for contact, the

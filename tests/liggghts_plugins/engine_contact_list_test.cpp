@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "liggghts_plugins/sphere_contact.hpp"
@@ -41,10 +42,8 @@ struct Crowd {
       spins.push_back({{0, 0, 0}, 1.0});
     }
     list.start(count, count, {}, options.precision);
-    for (int i = 0; i < count; ++i) {
-      for (int j = i + 1; j < count; ++j) list.add_candidate(j);
-      list.end_row();
-    }
+    for (int i = 0; i < count; ++i) indices.push_back(i);
+    for (int i = 0; i < count; ++i) list.add_row(std::span(indices).subspan(i + 1));
     int size = 1;
     while (size < grains_per_block + list.widest_pair() + 1) size *= 2;
     loads.resize(size + 1);
@@ -94,6 +93,7 @@ struct Crowd {
   bool uniform;
   std::vector<GrainRecord> grains;
   std::vector<SpinRecord> spins;
+  std::vector<int> indices;
   ContactList list;
   std::vector<LoadRecord> loads;
   LoadRing ring{};
