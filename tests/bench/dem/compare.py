@@ -109,7 +109,8 @@ def write_page():
     for path in paths:
         grains, ranks = path.stem.split("_")
         names = ["state", *columns_of(PROGRAMS), *(f"B/grain {name}" for name in PROGRAMS)]
-        lines += ["", f"## {int(grains):,} grains, {ranks} rank(s)".replace(",", " "), "",
+        number = f"{int(grains):,}".replace(",", " ")
+        lines += ["", f"## {number} grains, {ranks} rank(s)", "",
                   "| " + " | ".join(names) + " |", "|" + "---|" * len(names)]
         with open(path, newline="") as file:
             for row in csv.DictReader(file):
