@@ -14,9 +14,9 @@ enum class OnViolation { warn, stop };
 struct AuditBounds {
   double momentum = 1e-6;        // vertical balance, over the weight
   double exchange = 1e-11;       // drag on grains against drag on gas
-  double pressure_force = 1e-5;  // the same for -V grad p
+  double pressure_force = 1e-6;  // the same for -V grad p
   double solid_volume = 1e-11;   // in the cells against the grains'
-  double divergence = 1e-3;      // of the gas
+  double divergence = 1e-4;      // of the gas
   double heating = 0.1;          // energy from nowhere over the grains' kinetic and elastic energy
   OnViolation on_violation = OnViolation::warn;
 };

@@ -14,7 +14,7 @@ AuditBounds read(const std::string& text) {
 }
 
 TEST(AuditBounds, nothing_to_say_within_them) {
-  EXPECT_TRUE(violations({}, {1e-7, 1e-13, 1e-6, 1e-13, 1e-6, 0.0}, {}).empty());
+  EXPECT_TRUE(violations({}, {1e-7, 1e-13, 1e-7, 1e-13, 1e-6, 0.0}, {}).empty());
 }
 
 TEST(AuditBounds, say_value_bound_and_cause) {
