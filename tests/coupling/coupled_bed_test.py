@@ -243,7 +243,7 @@ class CoupledBed(unittest.TestCase):
 
     def test_grains_come_to_rest_without_a_flow(self):
         bench = bed.bench(bed.case(bottom='"no-slip"'))
-        bench.run(bed.script("run 12000"), ranks=2)
+        bench.run(bed.script("run 15000"), ranks=2)
         energy = [row["kinetic_energy"] for row in bed.series(bench.directory)]
         self.assertLess(energy[-1], 1e-4 * max(energy))
         self.assertLess(max(energy[-10:]), max(energy[-40:-30]))
