@@ -24,9 +24,13 @@ bool void_fraction_is_limited(const SurroundingGas& gas, const DragOptions& opti
 }
 
 double stable_exchange_interval(const GrainRecord& grain, double void_fraction,
-                                double exchange_coefficient) {
+                                double exchange_coefficient, double gas_density) {
   if (exchange_coefficient <= 0) return std::numeric_limits<double>::infinity();
-  return 2.0 * void_fraction * void_fraction * grain.mass / exchange_coefficient;
+  const double displaced =
+      gas_density * grain.volume * (1.0 - void_fraction) / (grain.mass * void_fraction);
+  const double inertia = std::max(0.0, 1.0 - 0.5 * displaced);
+  return 2.0 * void_fraction * void_fraction * grain.mass / exchange_coefficient * inertia *
+         inertia;
 }
 
 }  // namespace gasgrain::coupling
