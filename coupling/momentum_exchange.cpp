@@ -1,6 +1,7 @@
 #include "coupling/momentum_exchange.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace gasgrain::coupling {
@@ -29,8 +30,8 @@ double stable_exchange_interval(const GrainRecord& grain, double void_fraction,
   const double displaced =
       gas_density * grain.volume * (1.0 - void_fraction) / (grain.mass * void_fraction);
   const double inertia = std::max(0.0, 1.0 - 0.5 * displaced);
-  return 2.0 * void_fraction * void_fraction * grain.mass / exchange_coefficient * inertia *
-         inertia;
+  return 2.0 * void_fraction * void_fraction * grain.mass / exchange_coefficient *
+         std::min(1.0, 2.0 * std::pow(inertia, 4));
 }
 
 }  // namespace gasgrain::coupling

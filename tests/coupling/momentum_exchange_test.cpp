@@ -58,8 +58,8 @@ TEST(StableExchangeInterval, vanishes_where_the_displaced_gas_is_twice_the_grain
   const double twice = 2 * grain.mass / grain.volume * eps / (1 - eps);
   EXPECT_EQ(stable_exchange_interval(grain, eps, 1e-6, twice), 0.0);
   EXPECT_EQ(stable_exchange_interval(grain, eps, 1e-6, 1.5 * twice), 0.0);
-  EXPECT_NEAR(stable_exchange_interval(grain, eps, 1e-6, 0.5 * twice), 0.25 * air, 1e-12 * air);
-  EXPECT_NEAR(stable_exchange_interval(grain, eps, 1e-6, 1e-4 * twice), air, 3e-4 * air);
+  EXPECT_NEAR(stable_exchange_interval(grain, eps, 1e-6, 0.5 * twice), 0.125 * air, 1e-12 * air);
+  EXPECT_NEAR(stable_exchange_interval(grain, eps, 1e-6, 0.1 * twice), air, 1e-12 * air);
 }
 
 }  // namespace

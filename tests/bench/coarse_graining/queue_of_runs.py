@@ -8,63 +8,28 @@ that fails has a row that says why and is not repeated; delete the row to repeat
 """
 
 import argparse
-import concurrent.futures
-import csv
-import math
 import os
 import pathlib
-import re
 import shutil
-import signal
-import subprocess
 import sys
 import tempfile
-import threading
 import time
 
 import measures
 from cases import MESHES, SCENES, all_cases
 
 HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parents[2]
+sys.path.insert(0, str(HERE.parent))
+
+import resumable_queue  # noqa: E402
+
 COLUMNS = ["law", "l", "seed", "factor", "value", "grains", "steps", "grain_steps", "cpu_seconds",
            "step", "status", "commit", "load"]
-LOCK = threading.Lock()
-RUNNING = set()  # processes
-STOPPED = threading.Event()  # rows of runs that were cut off are not written
 
 
 def name_of(case):
     factor = f" {case.factor}={case.value}" if case.factor else ""
     return f"{case.scene} {case.law} l={case.l:g} seed={case.seed}{factor}"
-
-
-def rows_of(results, scene):
-    path = results / f"{scene}.csv"
-    if not path.exists():
-        return []
-    with open(path) as file:
-        return list(csv.DictReader(file))
-
-
-def add_row(results, case, row):
-    path = results / f"{case.scene}.csv"
-    columns = COLUMNS + list(SCENES[case.scene].quantities)
-    with LOCK:
-        new = not path.exists()
-        with open(path, "a", newline="") as file:
-            writer = csv.DictWriter(file, columns, lineterminator="\n")
-            if new:
-                writer.writeheader()
-            writer.writerow(row)
-
-
-def commit():
-    def git(*words):
-        return subprocess.run(["git", "-C", str(ROOT), *words], text=True, check=True,
-                              stdout=subprocess.PIPE).stdout.strip()
-    changed = git("status", "--porcelain", "--", "liggghts_plugins", "coupling", "cfd")
-    return git("rev-parse", "--short", "HEAD") + ("+" if changed else "")
 
 
 def prepare(case, directory):
@@ -76,36 +41,13 @@ def prepare(case, directory):
         (directory / name).write_text(text())
 
 
-def run_program(program, directory, limit):
-    """(status, CPU seconds of the process)."""
-    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1",
-                   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                   "OMPI_MCA_hwloc_base_binding_policy": "none", "OMP_NUM_THREADS": "1"}
-    with open(directory / "screen", "w") as screen:
-        process = subprocess.Popen([program, "-in", "scene.in", "-log", "log"], cwd=directory,
-                                   env=environment, stdin=subprocess.DEVNULL, stdout=screen,
-                                   stderr=subprocess.STDOUT, start_new_session=True)
-        RUNNING.add(process)
-        watch = threading.Timer(limit, process.kill)
-        watch.start()
-        _, status, usage = os.wait4(process.pid, 0)
-        watch.cancel()
-        RUNNING.discard(process)
-        process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode == 0:
-        return "ok", usage.ru_utime + usage.ru_stime
-    lines = (directory / "screen").read_text(errors="replace").splitlines()
-    reasons = [line for line in lines if "ERROR" in line] + [f"exit code {process.returncode}"]
-    return "failed: " + reasons[0].replace(",", ";")[:120], usage.ru_utime + usage.ru_stime
-
-
 def one_run(case, given, version):
     scene, dt = SCENES[case.scene], SCENES[case.scene].step(case)
     directory = pathlib.Path(tempfile.mkdtemp(prefix="gasgrain-bench-"))
     try:
         prepare(case, directory)
-        status, cpu = run_program(given.program, directory, 60 * given.limit)
-        if STOPPED.is_set():
+        status, cpu = resumable_queue.run_program(given.program, directory, 60 * given.limit)
+        if resumable_queue.STOPPED.is_set():
             return
         values = {}
         grains = scene.grains(case)
@@ -125,7 +67,8 @@ def one_run(case, given, version):
                    step=f"{dt:.4g}", status=status, commit=version,
                    load=f"{os.getloadavg()[0]:.1f}",
                    **{name: f"{value:.6g}" for name, value in values.items()})
-        add_row(given.results, case, row)
+        resumable_queue.add_row(given.results / f"{case.scene}.csv",
+                                COLUMNS + list(scene.quantities), row)
         print(f"{time.strftime('%H:%M:%S')}  {name_of(case):50} {cpu:8.1f} s CPU  {status}",
               flush=True)
         if given.keep:
@@ -135,60 +78,17 @@ def one_run(case, given, version):
         shutil.rmtree(directory, ignore_errors=True)
 
 
-def options():
+def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--only", default="", metavar="REGEX")
-    parser.add_argument("--budget", type=float, default=math.inf, metavar="MINUTES",
-                        help="start no run after this time")
-    parser.add_argument("--limit", type=float, default=60, metavar="MINUTES",
-                        help="a run that takes longer fails (default %(default)g)")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at the same time")
-    parser.add_argument("--list", action="store_true", help="say what is missing, run nothing")
-    parser.add_argument("--keep", type=pathlib.Path, metavar="DIR", help="keep scripts and frames")
-    parser.add_argument("--results", type=pathlib.Path, default=HERE / "results", metavar="DIR")
-    parser.add_argument("--program", default=str(ROOT / "build" / "bin" / "gasgrain"))
-    return parser.parse_args()
-
-
-def interrupt(*_):
-    raise KeyboardInterrupt
-
-
-def main():
-    given = options()
-    signal.signal(signal.SIGTERM, interrupt)
+    resumable_queue.add_options(parser, HERE / "results", limit=60)
+    given = parser.parse_args()
     done = {scene: {tuple(row[c] for c in ("law", "l", "seed", "factor", "value"))
-                    for row in rows_of(given.results, scene)} for scene in SCENES}
-    wanted = [case for case in all_cases() if re.search(given.only, name_of(case))]
-    missing = [case for case in wanted if case.key not in done[case.scene]]
-    print(f"{len(wanted) - len(missing)} of {len(wanted)} runs are done")
-    if given.list:
-        print("\n".join(name_of(case) for case in missing))
-        return
-    if not pathlib.Path(given.program).exists():
-        sys.exit(f"ERROR: no program {given.program}: build first, or say --program")
-    given.results.mkdir(exist_ok=True)
-    end, version = time.monotonic() + 60 * given.budget, commit()
-
-    def run_in_time(case):
-        if time.monotonic() < end and not STOPPED.is_set():
-            one_run(case, given, version)
-
-    with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
-        futures = [pool.submit(run_in_time, case) for case in missing]
-        try:
-            for future in futures:
-                future.result()
-        except BaseException:
-            STOPPED.set()
-            for process in list(RUNNING):
-                process.kill()
-            raise
+                    for row in resumable_queue.rows_of(given.results / f"{scene}.csv")}
+            for scene in SCENES}
+    resumable_queue.make_missing(given, all_cases(), name_of,
+                                 lambda case: case.key in done[case.scene], one_run)
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except KeyboardInterrupt:
-        sys.exit("stopped; the next call continues")
+    main()
