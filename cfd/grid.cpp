@@ -1,5 +1,6 @@
 #include "cfd/grid.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -9,13 +10,36 @@ namespace gasgrain::cfd {
 
 namespace {
 
-// First layer of part `part` when `layers` are cut into `parts`.
-int first_layer(int part, int parts, int layers) {
-  return static_cast<int>(static_cast<long long>(part) * layers / parts);
-}
+// Layers are cut in whole units, the last of which may be shorter: the coarse cells of a multigrid
+// solver then end at the blocks' borders.
+struct Cut {
+  int parts, layers, unit;
 
-int part_of_layer(int layer, int parts, int layers) {
-  return static_cast<int>((static_cast<long long>(layer + 1) * parts - 1) / layers);
+  int units() const { return (layers + unit - 1) / unit; }
+  // First layer of a part; `parts` gives the end of the last one.
+  int first(int part) const {
+    const long long units_below = static_cast<long long>(part) * units() / parts;
+    return std::min(layers, static_cast<int>(units_below) * unit);
+  }
+  int part_of(int layer) const {
+    return static_cast<int>((static_cast<long long>(layer / unit + 1) * parts - 1) / units());
+  }
+  int largest() const {
+    int most = 0;
+    for (int part = 0; part < parts; ++part) most = std::max(most, first(part + 1) - first(part));
+    return most;
+  }
+};
+
+// The largest unit that makes no part more than a few per cent longer than the mean.
+Cut cut(int parts, int layers) {
+  constexpr int largest_unit = 16;
+  constexpr double longer = 1.03;
+  for (int unit = largest_unit; unit > 1; unit /= 2) {
+    const Cut units{parts, layers, unit};
+    if (units.units() >= parts && units.largest() * parts <= longer * layers) return units;
+  }
+  return {parts, layers, 1};
 }
 
 std::string text(const Index3& n) {
@@ -98,8 +122,10 @@ Decomposition::Decomposition(MPI_Comm communicator, const Grid& grid,
                     rank_ / ranks_[0] / ranks_[1]};
   const Index3 stride{1, ranks_[0], ranks_[0] * ranks_[1]};
   for (int d = 0; d < 3; ++d) {
-    block_.lower[d] = first_layer(part[d], ranks_[d], grid.cells[d]);
-    block_.size[d] = first_layer(part[d] + 1, ranks_[d], grid.cells[d]) - block_.lower[d];
+    const Cut layers = cut(ranks_[d], grid.cells[d]);
+    unit_[d] = layers.unit;
+    block_.lower[d] = layers.first(part[d]);
+    block_.size[d] = layers.first(part[d] + 1) - block_.lower[d];
     for (int side = 0; side < 2; ++side) {
       const int other = part[d] + (side == 0 ? -1 : 1);
       const bool outside = other < 0 || other >= ranks_[d];
@@ -114,7 +140,7 @@ int Decomposition::owner(const Index3& cell) const {
   Index3 part{};
   for (int d = 0; d < 3; ++d) {
     GASGRAIN_ASSERT(cell[d] >= 0 && cell[d] < grid_.cells[d]);
-    part[d] = part_of_layer(cell[d], ranks_[d], grid_.cells[d]);
+    part[d] = Cut{ranks_[d], grid_.cells[d], unit_[d]}.part_of(cell[d]);
   }
   return part[0] + ranks_[0] * (part[1] + ranks_[1] * part[2]);
 }

@@ -26,7 +26,8 @@ TEST(Grid, cell_of_finds_the_cell_of_a_point_and_leaves_the_range_outside) {
 }
 
 TEST(Decomposition, blocks_tile_the_grid_and_owner_names_the_block) {
-  for (const Index3& cells : {Index3{7, 5, 11}, Index3{40, 8, 160}, Index3{1, 1, 9}}) {
+  for (const Index3& cells :
+       {Index3{7, 5, 11}, Index3{40, 8, 160}, Index3{1, 1, 9}, Index3{5, 3, 436}}) {
     const Decomposition blocks(MPI_COMM_WORLD, grid_of(cells), {false, true, false});
     double owned = 0.0, misplaced = 0.0;
     const Block& block = blocks.block();
@@ -47,6 +48,13 @@ TEST(Decomposition, parts_of_a_direction_differ_by_one_layer_at_most) {
     const double largest = max_over_ranks(blocks, size), smallest = -max_over_ranks(blocks, -size);
     EXPECT_LE(largest - smallest, 1.0);
   }
+}
+
+// Coarse cells of 4 layers end at the borders, and no rank has much more to do than the others.
+TEST(Decomposition, long_directions_are_cut_where_coarse_cells_end) {
+  const Decomposition blocks(MPI_COMM_WORLD, grid_of({5, 3, 436}), {false, false, false});
+  EXPECT_EQ(blocks.block().lower[2] % 4, 0);
+  EXPECT_LE(blocks.block().size[2] * blocks.ranks()[2], 1.03 * 436);
 }
 
 TEST(Decomposition, cuts_the_longest_direction) {
