@@ -128,6 +128,7 @@ void CoupledRun::continue_run() {
   }
   start_clock();
   run_start_ = clock_;
+  steps_at_start_ = host_.progress().done;
 }
 
 void CoupledRun::force_applied(double dem_step, const Vec3& force_sum) {
@@ -206,7 +207,10 @@ void CoupledRun::write_outputs(double time) {
   }
   if (frame_schedule_.due(time)) write_frame(time);
   if (progress_schedule_.due(time)) {
-    host_.print(progress_text(row_, mean_wall_times(), host_.progress(), MPI_Wtime() - run_start_));
+    const RunProgress progress = host_.progress();
+    host_.print(progress_text(
+        row_, mean_wall_times(), progress,
+        {.steps = progress.done - steps_at_start_, .seconds = MPI_Wtime() - run_start_}));
   }
 }
 

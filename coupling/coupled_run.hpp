@@ -129,7 +129,8 @@ class CoupledRun {
   double elapsed_ = 0.0;           // s since the last exchange
   double last_frame_time_ = -1.0;  // s
   double clock_ = 0.0;             // wall time at the start of the part under way
-  double run_start_ = 0.0;
+  double run_start_ = 0.0;         // the same at the last set-up
+  long steps_at_start_ = 0;        // of the DEM, done then
 };
 
 }  // namespace gasgrain::coupling

@@ -96,10 +96,11 @@ std::string scene_text(const Scene& scene) {
 }
 
 std::string progress_text(const SeriesRow& row, const WallTimes& times, const RunProgress& progress,
-                          double elapsed) {
+                          const Pace& pace) {
   const double share = progress.total > 0 ? double(progress.done) / double(progress.total) : 1.0;
   const double remaining =
-      share > 0 ? elapsed * (1 - share) / share : std::numeric_limits<double>::infinity();
+      pace.steps > 0 ? pace.seconds * double(progress.total - progress.done) / double(pace.steps)
+                     : std::numeric_limits<double>::infinity();
   std::string out =
       text("t %.4f s  %3.0f %%  %s left | dp %.1f Pa  bed %.2f mm  overlap %.2g %% | ", row.time,
            100 * share, duration(remaining).c_str(), row.bed.pressure_drop, row.bed.height * 1e3,
@@ -127,7 +128,7 @@ std::string closing_text(const SeriesRow& row, const RunStatistics& statistics,
   out += text("  averaged             from %.4g to %.4g s\n", means.from, means.to);
   out += "  bed height           " + with_interval(means.height, 1e3, "mm") + "\n";
   out += "  pressure drop        " + with_interval(means.pressure_drop, 1.0, "Pa") + "\n";
-  if (!std::isnan(means.pressure_drop.value)) {
+  if (!std::isnan(means.pressure_drop.value) && means.weight_over_area > 0) {
     out += text("    weight over area   %.4g Pa; measured is %.4g times that\n",
                 means.weight_over_area, means.pressure_drop.value / means.weight_over_area);
     out += text(

@@ -41,9 +41,15 @@ struct Scene {
 };
 std::string scene_text(const Scene& scene);
 
-// One line while running. `elapsed` is the wall time of the present run, s.
+// How fast the present part of a run goes: parts begin at checkpoints.
+struct Pace {
+  long steps = 0;        // done in it
+  double seconds = 0.0;  // of wall time that they took
+};
+
+// One line while running; what is left at the pace of the present part.
 std::string progress_text(const SeriesRow& row, const WallTimes& times, const RunProgress& progress,
-                          double elapsed);
+                          const Pace& pace);
 
 // The table at the end of a run.
 std::string closing_text(const SeriesRow& row, const RunStatistics& statistics,
