@@ -6,7 +6,7 @@
 A packed bed of grains of 0.5 mm, 100 mm wide, on cells of 1.25 mm with air at 0.2 m/s from below,
 an exchange every two DEM steps. Prints the largest resident memory of each rank since its start,
 MPI's own share included, and the time per coupling step. More ranks than cores are fine: memory is
-what counts. About a minute on two idle cores.
+what counts. Four minutes on two busy cores.
 """
 
 import argparse
