@@ -41,6 +41,7 @@ GasRun::GasRun(const GasCase& gas_case, MPI_Comm communicator)
       display_(solver_, end_time_) {
   if (gas_case.fixed_bed.present) bed_.emplace(solver_);
   if (!gas_case.output.directory.empty()) {
+    held_.emplace(communicator, gas_case.output.directory);
     checkpoints_.emplace(communicator, gas_case.output.directory, "gas_checkpoint");
   } else if (gas_case.run.checkpoint_interval > 0.0) {
     throw UserError(

@@ -15,6 +15,7 @@
 #include "cfd/run_display.hpp"
 #include "cfd/time_series.hpp"
 #include "coupling/files/checkpoint_files.hpp"
+#include "coupling/files/output_directory.hpp"
 #include "coupling/shared/error.hpp"
 #include "coupling/shared/schedule.hpp"
 #include "coupling/shared/stop_signal.hpp"
@@ -56,6 +57,7 @@ class GasRun {
   RunCounters counters_;
   StepReport last_;       // of the last step
   double last_dt_ = 0.0;  // s, 0 before the first step
+  std::optional<OutputDirectory> held_;
   std::optional<CheckpointFiles> checkpoints_;
   std::optional<double> restarted_at_;  // s
   std::vector<std::string> notes_;      // what the user should know before the first step

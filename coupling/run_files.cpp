@@ -1,7 +1,5 @@
 #include "coupling/run_files.hpp"
 
-#include <unistd.h>
-
 #include <array>
 #include <filesystem>
 
@@ -25,6 +23,7 @@ RunFiles::RunFiles(MPI_Comm communicator, const std::string& directory,
                    std::optional<double> continue_from)
     : communicator_(communicator),
       directory_(directory),
+      held_(communicator, directory),
       continue_from_(continue_from),
       rank_(rank_in(communicator)),
       gas_frames_(communicator, directory, "gas",
@@ -35,9 +34,6 @@ RunFiles::RunFiles(MPI_Comm communicator, const std::string& directory,
     if (rank_ != 0) return;
     std::error_code ignored;  // an absent file is as good as a removed one
     std::filesystem::remove(directory_ + "/summary.json", ignored);
-    const bool writable =
-        std::filesystem::is_directory(directory_) && access(directory_.c_str(), W_OK) == 0;
-    if (!writable) throw UserError("cannot write into the output directory '" + directory_ + "'");
   });
 }
 

@@ -10,6 +10,7 @@
 #include "coupling/dem_host.hpp"
 #include "coupling/files/csv_file.hpp"
 #include "coupling/files/frame_writer.hpp"
+#include "coupling/files/output_directory.hpp"
 #include "coupling/files/summary.hpp"
 
 namespace gasgrain::coupling {
@@ -21,9 +22,9 @@ struct NamedValue {
 
 class RunFiles {
  public:
-  // Collective. Creates the directory and removes a summary of an earlier run, so that nothing
-  // unfinished looks complete. With `continue_from` [s] the rows up to that time and the frames
-  // that are there are kept. Throws UserError on every rank.
+  // Collective. Makes and holds the directory and removes a summary of an earlier run, so that
+  // nothing unfinished looks complete. With `continue_from` [s] the rows up to that time and the
+  // frames that are there are kept. Throws UserError on every rank.
   RunFiles(MPI_Comm communicator, const std::string& directory,
            std::optional<double> continue_from);
 
@@ -44,6 +45,7 @@ class RunFiles {
 
   MPI_Comm communicator_;
   std::string directory_;
+  OutputDirectory held_;
   std::optional<double> continue_from_;
   int rank_;
   std::optional<CsvFile> series_, profile_;  // from their first rows on, on rank 0

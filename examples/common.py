@@ -1,6 +1,7 @@
 """What the examples share: starting gasgrain under MPI, editing a case file, the summary file."""
 
 import argparse
+import fcntl
 import json
 import os
 import pathlib
@@ -60,10 +61,23 @@ def add_run_options(parser, name):
                         help=f"directory for the results (default out/{name})")
 
 
+def require_idle(directory):
+    """Fails while a run of gasgrain writes into `directory`: see output_directory.hpp."""
+    try:
+        with open(directory / ".running", "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except FileNotFoundError:
+        pass
+    except BlockingIOError:
+        fail(f"another run is writing into {directory}; wait for its end, stop it, or give --out "
+             "another directory")
+
+
 def fresh_directory(path):
     """The directory for results, without those of an earlier run."""
     out = pathlib.Path(path).resolve()
     out.mkdir(parents=True, exist_ok=True)
+    require_idle(out)
     for old in ("summary.json", "result.png"):
         (out / old).unlink(missing_ok=True)
     return out

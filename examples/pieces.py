@@ -112,6 +112,7 @@ def run_piece(job, how):
 
     `how` holds the options of add_options. A run that is complete already is left as it is.
     """
+    common.require_idle(job.directory)
     record = read_record(job.directory)
     if how.fresh or record["settings"] != job.settings():
         begin_anew(job.directory)

@@ -13,6 +13,7 @@ made from what lies there.
 import argparse
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -61,12 +62,22 @@ def command(case, directory, chosen, hours):
     return words + (["--paper"] if chosen.paper else [])
 
 
+def run_case(words):
+    """Exit code of the example; when we are told to end, so is it, and it writes a checkpoint."""
+    process = subprocess.Popen(words)
+    before = signal.signal(signal.SIGTERM, lambda *_: process.terminate())
+    try:
+        return process.wait()
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
 def run_cases(chosen):
     """Directories of the cases, all run to their ends; else the program ends here."""
     end = time.monotonic() + 3600 * chosen.hours
     for case in chosen.cases:
         left = max((end - time.monotonic()) / 3600, 1e-3)
-        code = subprocess.run(command(case, chosen.run, chosen, left)).returncode
+        code = run_case(command(case, chosen.run, chosen, left))
         if code != 0:
             sys.exit(code)
     return [chosen.run / case for case in chosen.cases]

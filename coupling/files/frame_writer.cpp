@@ -12,6 +12,7 @@
 
 #include "coupling/files/collective_error.hpp"
 #include "coupling/files/hdf5_file.hpp"
+#include "coupling/files/output_directory.hpp"
 #include "coupling/files/xdmf.hpp"
 #include "coupling/shared/error.hpp"
 
@@ -82,13 +83,7 @@ FrameWriter::FrameWriter(MPI_Comm comm, std::string directory, std::string name,
   GASGRAIN_ASSERT(is_identifier(name_));
   MPI_Comm_rank(comm_, &rank_);
   run_collectively(comm_, [this] {
-    if (rank_ != 0) return;
-    std::error_code error;
-    std::filesystem::create_directories(directory_, error);
-    if (error || !std::filesystem::is_directory(directory_)) {
-      throw UserError("cannot create the output directory '" + directory_ +
-                      "': " + error.message());
-    }
+    if (rank_ == 0) make_output_directory(directory_);
   });
   run_collectively(comm_, [this] { read_index(); });
   if (series == Series::start_new) drop_frames_from(-std::numeric_limits<double>::infinity());

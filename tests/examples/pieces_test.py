@@ -1,5 +1,6 @@
 """Runs in pieces with a small program in place of gasgrain: packing, stop, going on, record."""
 
+import fcntl
 import json
 import os
 import pathlib
@@ -118,6 +119,18 @@ class Pieces(unittest.TestCase):
             self.run_piece(code=3)
         self.assertIn("exit code 3", str(failed.exception))
         self.assertIn("log.liggghts", str(failed.exception))
+
+    def test_directory_of_a_living_run_is_left_alone(self):
+        self.run_piece()
+        before = (self.directory / pieces.RECORD).read_text()
+        with open(self.directory / ".running", "w") as held:
+            fcntl.flock(held, fcntl.LOCK_EX)
+            with self.assertRaises(SystemExit) as refused:
+                self.run_piece(fresh=True)
+        self.assertIn("another run", str(refused.exception))
+        self.assertEqual((self.directory / pieces.RECORD).read_text(), before)
+        self.run_piece(fresh=True)
+        self.assertEqual(len(self.starts()), 2)
 
     def test_end_without_a_summary_is_not_complete(self):
         with self.assertRaises(SystemExit) as stopped:
