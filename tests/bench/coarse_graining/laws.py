@@ -25,6 +25,7 @@ class Material:
     friction: float  # mu, -
     impact_speed: float  # m/s, the characteristic velocity of stock `hooke`
     poisson_ratio: float = 0.3
+    wall_friction: float | None = None  # mu at walls; None: that between grains
 
     @property
     def mass(self):
@@ -70,7 +71,8 @@ class Law:
     def properties(self, material, l):
         """Lines of property/global fixes."""
         e, mu = material.restitution, material.friction
-        lines = [pair_property("coefficientFriction", mu, mu)]
+        wall_mu = mu if material.wall_friction is None else material.wall_friction
+        lines = [pair_property("coefficientFriction", mu, wall_mu)]
         if not self.stock:
             return lines + [pair_property("cgmSpringConstant", material.spring, material.spring),
                             pair_property("coefficientRestitution", e, e)]
