@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -20,16 +21,27 @@ void make_output_directory(const std::string& directory) {
   }
 }
 
+namespace {
+
+// Whether the file still has a name: a run that ends may take it away between our open and lock.
+bool is_listed(int file) {
+  struct stat status;
+  return fstat(file, &status) == 0 && status.st_nlink > 0;
+}
+
+}  // namespace
+
 OutputDirectory::OutputDirectory(MPI_Comm communicator, const std::string& directory) {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
   run_collectively(communicator, [&] {
     if (rank != 0) return;
     make_output_directory(directory);
-    const std::string path = directory + "/.running";
-    lock_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    path_ = directory + "/.running";
+    lock_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (lock_ < 0) throw UserError("cannot write into the output directory '" + directory + "'");
-    if (flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    const bool refused = flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!refused && is_listed(lock_)) return;
     close(lock_);
     lock_ = -1;
     throw UserError("another run is writing into the output directory '" + directory +
@@ -38,7 +50,9 @@ OutputDirectory::OutputDirectory(MPI_Comm communicator, const std::string& direc
 }
 
 OutputDirectory::~OutputDirectory() {
-  if (lock_ >= 0) close(lock_);
+  if (lock_ < 0) return;
+  unlink(path_.c_str());
+  close(lock_);
 }
 
 }  // namespace gasgrain

@@ -11,8 +11,9 @@ namespace gasgrain {
 void make_output_directory(const std::string& directory);
 
 // While it lives no other process can hold the same directory: two runs that write the same files
-// would leave a mixture of both. The lock lies in the file `.running` and ends with the process,
-// however that ends. File systems without locks (some network mounts) are not protected.
+// would leave a mixture of both. The lock lies on the file `.running` and ends with the process,
+// however that ends; one that was killed leaves the file. File systems without locks (some network
+// mounts) are not protected.
 class OutputDirectory {
  public:
   // Collective; rank 0 makes and holds the directory. Throws UserError on every rank when it cannot
@@ -23,7 +24,8 @@ class OutputDirectory {
   OutputDirectory& operator=(const OutputDirectory&) = delete;
 
  private:
-  int lock_ = -1;  // file descriptor on rank 0
+  std::string path_;  // of the lock
+  int lock_ = -1;     // file descriptor on rank 0
 };
 
 }  // namespace gasgrain

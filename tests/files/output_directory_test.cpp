@@ -24,6 +24,9 @@ TEST(OutputDirectory, is_made_and_held_by_one_run_at_a_time) {
     EXPECT_NE(std::string(error.what()).find(directory()), std::string::npos) << error.what();
   }
   first.reset();
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_TRUE(std::filesystem::is_empty(directory()));
+  MPI_Barrier(MPI_COMM_WORLD);
   EXPECT_NO_THROW(OutputDirectory(MPI_COMM_WORLD, directory()));
 }
 
