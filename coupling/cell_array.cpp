@@ -75,7 +75,7 @@ class Messages {
     sent.clear();
     for_each_in(layers, size_, ghosts_, [&](std::ptrdiff_t n) { sent.push_back(cells[n]); });
     received.resize(cells_in(layers));
-    const int count = static_cast<int>(received.size()) * components;
+    const int count = static_cast<int>(received.size()) * stored_components<components>;
     const int neighbour = decomposition_.neighbour(d, side);
     // what comes from below was sent upwards
     MPI_Irecv(received.data(), count, MPI_DOUBLE, neighbour, first_tag + 2 * d + (1 - side),

@@ -1,20 +1,30 @@
 // Several values per cell side by side, and the exchange of their ghosts between blocks.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <vector>
 
 #include "cfd/field.hpp"
 #include "cfd/grid.hpp"
+#include "cfd/loops.hpp"
 
 namespace gasgrain::coupling {
 
 // Indexed as cfd::Field is. All components of a cell are adjacent, so that a grain touches 27
 // places rather than 27 per component, a sweep reads its coefficients once for all components, and
 // the compiler can use vector instructions across components.
+// Padded to a power of two, so that no cell straddles lines of the cache that it need not.
 template <int components>
-using CellArray = std::vector<std::array<double, components>>;
+inline constexpr int stored_components =
+    static_cast<int>(std::bit_ceil(static_cast<unsigned>(components)));
+template <int components>
+struct alignas(stored_components<components> * sizeof(double)) CellValues
+    : std::array<double, stored_components<components>> {};
+template <int components>
+using CellArray = std::vector<CellValues<components>>;
 
 // Ghost layers around the block: how many an array has, and how many of them a message moves. The
 // default is the layout of cfd::Field with the layer that 27 cells around an owned one need.
@@ -35,8 +45,16 @@ struct CellStrides {
 std::size_t cell_array_size(const cfd::Decomposition& decomposition,
                             const GhostLayers& ghosts = {});
 
-// All functions are collective over neighbours, move layers of ghosts with all components in one
-// message, and leave ghosts at non-periodic sides of the grid as they are.
+// Zeroes the cells of `box`, ghosts included; `like` is any field of the block.
+template <int components>
+void clear(CellArray<components>& cells, const cfd::IndexBox& box, const cfd::Field& like) {
+  cfd::for_each_row(box, like, [&](std::ptrdiff_t first, int length) {
+    std::fill_n(cells.begin() + first, length, CellValues<components>{});
+  });
+}
+
+// The functions below are collective over neighbours, move layers of ghosts with all components in
+// one message, and leave ghosts at non-periodic sides of the grid as they are.
 
 // Ghosts across block faces, without edges and corners: what a seven-point stencil reads.
 template <int components>

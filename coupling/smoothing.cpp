@@ -93,45 +93,48 @@ void Smoothing::set_plan(const SmoothingPlan& plan) {
 }
 
 template <int components>
-void Smoothing::sweep(CellArray<components>& cells) {
-  const cfd::Index3& size = open_fraction_.size();
+void Smoothing::sweep(CellArray<components>& cells, const cfd::IndexBox& box) {
   const std::ptrdiff_t sx = open_fraction_.stride(0), sy = open_fraction_.stride(1),
                        sz = open_fraction_.stride(2);
   CellArray<components>& scratch = std::get<CellArray<components>>(scratch_);
-  scratch.resize(cells.size());
   const double *__restrict cx = conductance_[0].data(), *__restrict cy = conductance_[1].data(),
                *__restrict cz = conductance_[2].data(),
                *__restrict inverse = inverse_open_fraction_.data();
   const auto* __restrict f = cells.data();
   auto* __restrict out = scratch.data();
-  for (int k = 0; k < size[2]; ++k) {
-    for (int j = 0; j < size[1]; ++j) {
-      const std::ptrdiff_t row = open_fraction_.index(0, j, k);
-      for (std::ptrdiff_t n = row; n < row + size[0]; ++n) {
-        for (int m = 0; m < components; ++m) {
-          const double inflow =
-              cx[n] * (f[n - sx][m] - f[n][m]) + cx[n + sx] * (f[n + sx][m] - f[n][m]) +
-              cy[n] * (f[n - sy][m] - f[n][m]) + cy[n + sy] * (f[n + sy][m] - f[n][m]) +
-              cz[n] * (f[n - sz][m] - f[n][m]) + cz[n + sz] * (f[n + sz][m] - f[n][m]);
-          out[n][m] = f[n][m] + inverse[n] * inflow;
-        }
+  cfd::for_each_row(box, open_fraction_, [=](std::ptrdiff_t row, int length) {
+    for (std::ptrdiff_t n = row; n < row + length; ++n) {
+#pragma omp simd
+      for (int m = 0; m < stored_components<components>; ++m) {
+        const double inflow =
+            cx[n] * (f[n - sx][m] - f[n][m]) + cx[n + sx] * (f[n + sx][m] - f[n][m]) +
+            cy[n] * (f[n - sy][m] - f[n][m]) + cy[n + sy] * (f[n + sy][m] - f[n][m]) +
+            cz[n] * (f[n - sz][m] - f[n][m]) + cz[n + sz] * (f[n + sz][m] - f[n][m]);
+        out[n][m] = f[n][m] + inverse[n] * inflow;
       }
     }
-  }
+  });
   std::swap(cells, scratch);
 }
 
 template <int components>
-void Smoothing::apply(CellArray<components>& cells) {
+void Smoothing::apply(CellArray<components>& cells, const CellRange& range) {
+  if (plan_.sweeps == 0) return;
+  CellArray<components>& scratch = std::get<CellArray<components>>(scratch_);
+  scratch.resize(cells.size());
+  clear<components>(scratch, range.with_ring, open_fraction_);
   for (int s = 0; s < plan_.sweeps; ++s) {
     fill_face_ghosts<components>(decomposition_, cells);
-    sweep<components>(cells);
+    sweep<components>(cells, range.cells);
   }
 }
 
-template void Smoothing::apply<1>(CellArray<1>&);
-template void Smoothing::apply<2>(CellArray<2>&);
-template void Smoothing::apply<4>(CellArray<4>&);
-template void Smoothing::apply<6>(CellArray<6>&);
+#define GASGRAIN_INSTANTIATE(components) \
+  template void Smoothing::apply<components>(CellArray<components>&, const CellRange&);
+GASGRAIN_INSTANTIATE(1)
+GASGRAIN_INSTANTIATE(2)
+GASGRAIN_INSTANTIATE(4)
+GASGRAIN_INSTANTIATE(6)
+#undef GASGRAIN_INSTANTIATE
 
 }  // namespace gasgrain::coupling

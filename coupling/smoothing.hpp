@@ -5,6 +5,7 @@
 
 #include "cfd/field.hpp"
 #include "cfd/grid.hpp"
+#include "cfd/loops.hpp"
 #include "cfd/wall_geometry.hpp"
 #include "coupling/cell_array.hpp"
 
@@ -19,6 +20,12 @@ struct SmoothingPlan {
 // The least number of sweeps that widens a kernel of the given variance per direction, in dx^2, to
 // the standard deviation `width` [m]. Directions of a single cell are not smoothed.
 SmoothingPlan plan_smoothing(const cfd::Grid& grid, double width, const Vec3& variance);
+
+// Cells of a block that take part, and those with one more layer around them, ghosts included, of
+// which the others are zero. Both are cut from boxes of the whole grid, the same on all ranks.
+struct CellRange {
+  cfd::IndexBox cells, with_ring;
+};
 
 class Smoothing {
  public:
@@ -38,11 +45,17 @@ class Smoothing {
   // All sweeps, in place, on intensive values (amount per open volume). Collective; ghosts are
   // overwritten and stale afterwards.
   template <int components>
-  void apply(CellArray<components>& cells);
+  void apply(CellArray<components>& cells) {
+    apply<components>(cells, {{{0, 0, 0}, open_fraction_.size()}, {}});
+  }
+
+  // The same on some owned cells only; beyond them values count as zero.
+  template <int components>
+  void apply(CellArray<components>& cells, const CellRange& range);
 
  private:
   template <int components>
-  void sweep(CellArray<components>& cells);
+  void sweep(CellArray<components>& cells, const cfd::IndexBox& box);
 
   const cfd::Decomposition& decomposition_;
   SmoothingPlan plan_;

@@ -7,10 +7,10 @@
 // The weights of a grain add up to one over open cells, so the solid volume is conserved to
 // round-off, always. The kernel is continuous in the grain's position, which keeps d(eps)/dt smooth
 // when grains cross cells; centroid and satellite mappings do not. Those and others are there for
-// comparison (coupling/mapping.hpp): ListedShares then takes the place of T, S and all else stay.
-// Fields hold amounts per open volume, phi_c = q_c / ((1 - alpha_c) V). There T becomes
-// b_ic / (V sum), and its transpose b_ic (1 - alpha_c) / sum acting on cell values: cheap, with one
-// number per grain beside its nine spline weights.
+// comparison (coupling/mapping.hpp): ListedShares then takes the place of SplineShares as T, S and
+// all else stay. Fields hold amounts per open volume, phi_c = q_c / ((1 - alpha_c) V). There T
+// becomes b_ic / (V sum), and its transpose b_ic (1 - alpha_c) / sum acting on cell values: cheap,
+// with one number per grain beside its place.
 // Assumes: a grain's cell belongs to this rank, so that the 27 cells lie within the ghosts.
 // Source: Hockney & Eastwood, Computer Simulation Using Particles (1988), section 5-3 (TSC).
 #include "coupling/void_fraction.hpp"
@@ -24,13 +24,21 @@ namespace gasgrain::coupling {
 
 Deposition::Deposition(const cfd::Decomposition& decomposition, const cfd::WallGeometry& walls,
                        Mapping mapping)
-    : decomposition_(decomposition), smoothing_(decomposition, walls) {
-  if (mapping != Mapping::spline) listed_.emplace(decomposition, mapping);
+    : decomposition_(decomposition), smoothing_(decomposition, walls), spline_(decomposition) {
+  if (mapping != Mapping::spline) {
+    listed_.emplace(decomposition, mapping);
+  } else {
+    spline_.prepare(open_fraction());
+  }
 }
 
 void Deposition::set_walls(const cfd::WallGeometry& walls) {
   smoothing_.set_walls(walls);
-  if (listed_) listed_->prepare(open_fraction(), largest_diameter_);
+  if (listed_) {
+    listed_->prepare(open_fraction(), largest_diameter_);
+  } else {
+    spline_.prepare(open_fraction());
+  }
 }
 
 void Deposition::set_width(double width, double largest_diameter) {
@@ -42,127 +50,100 @@ void Deposition::set_width(double width, double largest_diameter) {
 }
 
 void Deposition::locate(std::span<const Vec3> positions, std::span<const double> diameters) {
-  if (listed_) return listed_->locate(positions, diameters);
-  const cfd::Grid& grid = decomposition_.grid();
+  if (listed_) {
+    listed_->locate(positions, diameters);
+    const cfd::Index3& size = decomposition_.block().size;
+    range_ = {{{0, 0, 0}, size}, {{-1, -1, -1}, {size[0] + 1, size[1] + 1, size[2] + 1}}};
+  } else {
+    spline_.locate(positions);
+    find_range();
+  }
+}
+
+// The box around the grains of all ranks, wider by what a grain reaches: a cell by the spline and
+// one by each sweep. All of a periodic direction across whose ends it reaches.
+void Deposition::find_range() {
+  const cfd::Index3& cells = decomposition_.grid().cells;
   const cfd::Block& block = decomposition_.block();
-  const Vec3 per_cell = grid.spacing().cwiseInverse();
-  const cfd::Field& open = open_fraction();
-  stencils_.resize(positions.size());
-  for (std::size_t n = 0; n < positions.size(); ++n) {
-    const Vec3 scaled = (positions[n] - grid.lower).cwiseProduct(per_cell);
-    const cfd::Index3 cell = grid.cell_of(positions[n]);
-    cfd::Index3 local;
-    Stencil& stencil = stencils_[n];
-    for (int d = 0; d < 3; ++d) {
-      local[d] = cell[d] - block.lower[d];
-      GASGRAIN_ASSERT(local[d] >= 0 && local[d] < block.size[d]);
-      stencil.spline[d] = spline_weights(scaled[d] - cell[d] - 0.5);
-    }
-    stencil.centre = open.index(local[0], local[1], local[2]);
-    double sum = 0;
-    for (int c = -1; c <= 1; ++c)
-      for (int b = -1; b <= 1; ++b) {
-        const double weight = stencil.spline[2][c + 1] * stencil.spline[1][b + 1];
-        const double* row = open.data() + stencil.centre + c * open.stride(2) + b * open.stride(1);
-        for (int a = -1; a <= 1; ++a) sum += weight * stencil.spline[0][a + 1] * row[a];
-      }
-    stencil.weight = sum > 1e-12 ? 1.0 / sum : 0.0;  // below: nothing but closed cells around it
+  const cfd::IndexBox& occupied = spline_.occupied();
+  std::array<int, 6> ends;  // largest of: minus lower, upper; global indices
+  for (int d = 0; d < 3; ++d) {
+    ends[2 * d] = -(block.lower[d] + occupied.begin[d]);
+    ends[2 * d + 1] = block.lower[d] + occupied.end[d];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, ends.data(), 6, MPI_INT, MPI_MAX, decomposition_.communicator());
+  const int reach = 1 + plan().sweeps;
+  for (int d = 0; d < 3; ++d) {
+    int begin = -ends[2 * d] - reach, end = ends[2 * d + 1] + reach;
+    const bool beyond = begin < 1 || end > cells[d] - 1;  // with the ring
+    if (decomposition_.periodic()[d] && beyond) begin = 0, end = cells[d];
+    begin = std::max(begin, 0) - block.lower[d];
+    end = std::min(end, cells[d]) - block.lower[d];
+    range_.cells.begin[d] = std::max(begin, 0);
+    range_.cells.end[d] = std::min(end, block.size[d]);
+    range_.with_ring.begin[d] = std::max(begin, 0) - 1;
+    range_.with_ring.end[d] = std::min(end, block.size[d]) + 1;
   }
 }
 
 template <int components>
-void Deposition::spread(CellArray<components>& density,
-                        std::span<const std::array<double, components>> amounts) {
-  GASGRAIN_ASSERT(amounts.size() == stencils_.size());
-  const cfd::Field& open = open_fraction();
-  const double per_volume = 1.0 / decomposition_.grid().cell_volume();
-  const std::ptrdiff_t sy = open.stride(1), sz = open.stride(2);
-  for (std::size_t n = 0; n < stencils_.size(); ++n) {
-    const Stencil& stencil = stencils_[n];
-    std::array<double, components> amount = amounts[n];
-    for (double& value : amount) value *= stencil.weight * per_volume;
-    for (int c = -1; c <= 1; ++c)
-      for (int b = -1; b <= 1; ++b) {
-        const double weight = stencil.spline[2][c + 1] * stencil.spline[1][b + 1];
-        auto* row = density.data() + stencil.centre + c * sz + b * sy;
-        for (int a = -1; a <= 1; ++a) {
-          const double w = weight * stencil.spline[0][a + 1];
-          for (int m = 0; m < components; ++m) row[a][m] += w * amount[m];
-        }
-      }
-  }
-  add_ghosts_to_owners<components>(decomposition_, density);
+CellArray<components>& Deposition::cleared_buffer() {
+  CellArray<components>& buffer = std::get<CellArray<components>>(buffers_);
+  buffer.resize(open_fraction().count());
+  clear<components>(buffer, range_.with_ring, open_fraction());
+  return buffer;
 }
 
 template <int components>
 void Deposition::deposit(const std::array<cfd::Field*, components>& cells,
                          std::span<const std::array<double, components>> amounts) {
   const cfd::Field& open = open_fraction();
-  CellArray<components>& density = std::get<CellArray<components>>(buffers_);
-  density.assign(open.count(), {});
+  CellArray<components>& density = cleared_buffer<components>();
   if (listed_) {
     listed_->spread<components>(density, amounts);
   } else {
-    spread<components>(density, amounts);
+    spline_.spread<components>(density, amounts);
+    add_ghosts_to_owners<components>(decomposition_, density);
   }
-  cfd::for_each_cell(open.size(), [&](int i, int j, int k) {
-    const std::ptrdiff_t n = open.index(i, j, k);
-    if (open[n] == 0.0) density[n].fill(0.0);
-  });
-  smoothing_.apply<components>(density);
+  smoothing_.apply<components>(density, range_);
+  std::array<double*, components> fields;
   for (int m = 0; m < components; ++m) {
-    cfd::Field& field = *cells[m];
-    GASGRAIN_ASSERT(field.size() == open.size());
-    cfd::for_each_cell(open.size(), [&](int i, int j, int k) {
-      const std::ptrdiff_t n = open.index(i, j, k);
-      field[n] = density[n][m];
-    });
+    GASGRAIN_ASSERT(cells[m]->size() == open.size());
+    cells[m]->fill(0.0);
+    fields[m] = cells[m]->data();
   }
+  cfd::for_each_row(range_.cells, open, [&](std::ptrdiff_t first, int length) {
+    for (std::ptrdiff_t n = first; n < first + length; ++n) {
+      const double is_open = open[n] > 0.0 ? 1.0 : 0.0;
+      for (int m = 0; m < components; ++m) fields[m][n] = is_open * density[n][m];
+    }
+  });
 }
 
 template <int components>
 void Deposition::gather(std::span<std::array<double, components>> values,
                         const std::array<const cfd::Field*, components>& cells) {
   const cfd::Field& open = open_fraction();
-  CellArray<components>& weighted = std::get<CellArray<components>>(buffers_);
-  weighted.assign(open.count(), {});
-  cfd::for_each_cell(open.size(), [&](int i, int j, int k) {
-    const std::ptrdiff_t n = open.index(i, j, k);
-    if (open[n] == 0.0) return;
-    for (int m = 0; m < components; ++m) weighted[n][m] = (*cells[m])[n];
+  CellArray<components>& weighted = cleared_buffer<components>();
+  std::array<const double*, components> fields;
+  for (int m = 0; m < components; ++m) fields[m] = cells[m]->data();
+  cfd::for_each_row(range_.cells, open, [&](std::ptrdiff_t first, int length) {
+    for (std::ptrdiff_t n = first; n < first + length; ++n) {
+      if (open[n] == 0.0) continue;
+      for (int m = 0; m < components; ++m) weighted[n][m] = fields[m][n];
+    }
   });
-  smoothing_.apply<components>(weighted);
-  cfd::for_each_cell(open.size(), [&](int i, int j, int k) {
-    const std::ptrdiff_t n = open.index(i, j, k);
-    for (double& value : weighted[n]) value *= open[n];
+  smoothing_.apply<components>(weighted, range_);
+  cfd::for_each_row(range_.cells, open, [&](std::ptrdiff_t first, int length) {
+    for (std::ptrdiff_t n = first; n < first + length; ++n) {
+      for (double& value : weighted[n]) value *= open[n];
+    }
   });
   if (listed_) {
     listed_->collect<components>(values, weighted);
   } else {
-    collect<components>(values, weighted);
-  }
-}
-
-template <int components>
-void Deposition::collect(std::span<std::array<double, components>> values,
-                         CellArray<components>& weighted) {
-  GASGRAIN_ASSERT(values.size() == stencils_.size());
-  const cfd::Field& open = open_fraction();
-  fill_ghosts<components>(decomposition_, weighted);
-  const std::ptrdiff_t sy = open.stride(1), sz = open.stride(2);
-  for (std::size_t n = 0; n < stencils_.size(); ++n) {
-    const Stencil& stencil = stencils_[n];
-    std::array<double, components> sum{};
-    for (int c = -1; c <= 1; ++c)
-      for (int b = -1; b <= 1; ++b) {
-        const double weight = stencil.spline[2][c + 1] * stencil.spline[1][b + 1];
-        const auto* row = weighted.data() + stencil.centre + c * sz + b * sy;
-        for (int a = -1; a <= 1; ++a) {
-          const double w = weight * stencil.spline[0][a + 1];
-          for (int m = 0; m < components; ++m) sum[m] += w * row[a][m];
-        }
-      }
-    for (int m = 0; m < components; ++m) values[n][m] = stencil.weight * sum[m];
+    fill_ghosts<components>(decomposition_, weighted);
+    spline_.collect<components>(values, weighted);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "coupling/listed_shares.hpp"
 #include "coupling/smoothing.hpp"
+#include "coupling/spline_shares.hpp"
 
 namespace gasgrain::coupling {
 
@@ -34,10 +35,10 @@ class Deposition {
 
   // Takes the grains' positions; each must lie in a cell of this rank's block. A grain around which
   // every cell is closed takes no part: it deposits nothing and gathers zeros. The B-spline does
-  // not look at `diameters` [m]; other mappings need one per grain.
+  // not look at `diameters` [m]; other mappings need one per grain. Collective.
   void locate(std::span<const Vec3> positions, std::span<const double> diameters = {});
   bool takes_part(std::size_t grain) const {
-    return listed_ ? listed_->takes_part(grain) : stencils_[grain].weight > 0;
+    return listed_ ? listed_->takes_part(grain) : spline_.takes_part(grain);
   }
 
   // D: cells[c] = deposited amount of component c per open volume, in owned cells. Amounts are
@@ -53,24 +54,17 @@ class Deposition {
               const std::array<const cfd::Field*, components>& cells);
 
  private:
-  struct Stencil {
-    std::ptrdiff_t centre = 0;                      // index of the cell that holds the grain
-    std::array<std::array<double, 3>, 3> spline{};  // [direction][-1, 0, 1]
-    double weight = 0;  // 1 / sum of spline weights times (1 - alpha); 0: takes no part
-  };
-
-  // T and its transpose with the B-spline.
+  void find_range();
+  // Zero wherever range_ reaches.
   template <int components>
-  void spread(CellArray<components>& density,
-              std::span<const std::array<double, components>> amounts);
-  template <int components>
-  void collect(std::span<std::array<double, components>> values, CellArray<components>& weighted);
+  CellArray<components>& cleared_buffer();
 
   const cfd::Decomposition& decomposition_;
   Smoothing smoothing_;
+  SplineShares spline_;                 // the mapping unless listed_ is there
   double largest_diameter_ = 0.0;       // m
+  CellRange range_;                     // cells that grains reach, smoothing included
   std::optional<ListedShares> listed_;  // of other mappings than the B-spline
-  std::vector<Stencil> stencils_;
   std::tuple<CellArray<1>, CellArray<2>, CellArray<4>, CellArray<6>> buffers_;
 };
 

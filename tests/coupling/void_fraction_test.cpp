@@ -176,6 +176,52 @@ TEST_P(DepositionOf, a_uniform_packing_is_uniform) {
                      [&](int i, int j, int k) { EXPECT_NEAR(solid(i, j, k), 0.5, 1e-12); });
 }
 
+// Work is limited to the box around the grains. Grains without volume in the corners of the grid
+// widen it to the whole grid and must change nothing.
+TEST(Deposition, cells_far_from_grains_change_nothing) {
+  for (const bool periodic : {false, true}) {
+    for (const double at : {0.05, 0.5, 0.95}) {  // cluster: share of the grid in each direction
+      const MappingScene scene({13, 9, 11}, {periodic, false, periodic}, {});
+      const Vec3 extent = scene.grid.upper - scene.grid.lower;
+      std::vector<Vec3> mine;
+      for (const Vec3& x : scene.places(200)) {
+        const Vec3 near =
+            scene.grid.lower + at * extent + 0.04 * (x - scene.grid.lower - extent / 2);
+        if (scene.owns(near)) mine.push_back(near);
+      }
+      std::vector<std::array<double, 1>> volumes(mine.size(), {1e-5}), gathered(mine.size());
+      cfd::Field cells(scene.decomposition.block().size), y(cells.size());
+      for (std::size_t n = 0; n < y.count(); ++n) y[n] = std::sin(double(n));
+      const auto map = [&](Deposition& deposition) {
+        deposition.set_width(0.13);
+        deposition.locate(mine);
+        deposition.deposit<1>({&cells}, volumes);
+        deposition.gather<1>(gathered, {&y});
+      };
+      Deposition narrow(scene.decomposition, scene.walls), wide(scene.decomposition, scene.walls);
+      map(narrow);
+      map(narrow);  // what the first time left in buffers must not matter
+      const cfd::Field narrow_cells = cells;
+      const auto narrow_gathered = gathered;
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 share(corner % 2, corner / 2 % 2, double(corner / 4));
+        const Vec3 x = scene.grid.lower + Vec3(0.01, 0.01, 0.01) +
+                       share.cwiseProduct(extent - Vec3(0.02, 0.02, 0.02));
+        if (!scene.owns(x)) continue;
+        mine.push_back(x);
+        volumes.push_back({0.0});
+      }
+      gathered.resize(mine.size());
+      map(wide);
+      cfd::for_each_cell(cells.size(), [&](int i, int j, int k) {
+        EXPECT_EQ(cells(i, j, k), narrow_cells(i, j, k));
+      });
+      for (std::size_t n = 0; n < narrow_gathered.size(); ++n)
+        EXPECT_EQ(gathered[n][0], narrow_gathered[n][0]);
+    }
+  }
+}
+
 TEST(Deposition, refuses_a_grain_that_reaches_beyond_the_next_block) {
   const MappingScene scene({4, 1, 4}, {false, true, false}, {});
   Deposition deposition(scene.decomposition, scene.walls, Mapping::exact);

@@ -1,6 +1,6 @@
 // Cost of spreading grains over cells and gathering back, per grain and coupling step on one core:
 //
-//   build/bin/mapping_cost [--grains 250000] [--repeats 15]
+//   build/bin/mapping_cost [--grains 250000] [--mapping spline] [--repeats 15]
 //
 // The bed with tubes (docs/performance.md): 40 x 8 x 160 cells of 1.25 mm, grains of 0.5 mm to a
 // solid fraction of 0.55 from the bottom up, in the order of cells as LIGGGHTS sorts them. A
@@ -120,6 +120,8 @@ int main(int argc, char** argv) {
   int grains = 250000, repeats = 15;
   CLI::App app{"Cost of deposition and gather per grain and coupling step"};
   app.add_option("--grains", grains)->check(CLI::Range(1000, 10000000));
+  std::vector<std::string> mappings = mapping_names();
+  app.add_option("--mapping", mappings)->check(CLI::IsMember(mapping_names()));
   app.add_option("--repeats", repeats)->check(CLI::Range(1, 1000));
   int code = 0;
   try {
@@ -129,7 +131,7 @@ int main(int argc, char** argv) {
     std::printf(
         "| mapping   |   locate | deposit1 |  gather4 | deposit4 |  gather6 | together |\n");
     std::printf("|---|---|---|---|---|---|---|\n");
-    for (const std::string& name : mapping_names()) measure(scene, find_mapping(name), repeats);
+    for (const std::string& name : mappings) measure(scene, find_mapping(name), repeats);
   } catch (const CLI::ParseError& error) {
     code = app.exit(error);
   }
