@@ -2,15 +2,18 @@
 the next call makes what is missing. For the benchmarks in the directories below.
 """
 
+import argparse
 import concurrent.futures
 import csv
 import math
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 
@@ -69,8 +72,29 @@ def run_program(program, directory, limit):
     return "failed: " + reasons[0].replace(",", ";")[:120], usage.ru_utime + usage.ru_stime
 
 
-def add_options(parser, results, limit):
-    """`results`: default of --results; `limit`: of --limit, minutes."""
+def make_run(name, given, prepare, row_of):
+    """Runs what prepare(directory) writes and adds its row. row_of(directory, status, CPU seconds)
+    returns the table's path, its columns, the row and what to print of it.
+    """
+    directory = pathlib.Path(tempfile.mkdtemp(prefix="gasgrain-bench-"))
+    try:
+        prepare(directory)
+        status, cpu = run_program(given.program, directory, 60 * given.limit)
+        if STOPPED.is_set():
+            return
+        path, columns, row, result = row_of(directory, status, cpu)
+        add_row(path, columns, row)
+        print(f"{time.strftime('%H:%M:%S')}  {name:50} {cpu:8.1f} s CPU  {result}", flush=True)
+        if given.keep:
+            shutil.copytree(directory, given.keep / name.replace(" ", "_"), dirs_exist_ok=True)
+    finally:
+        shutil.rmtree(directory, ignore_errors=True)
+
+
+def options(description, results, limit):
+    """The options given; `results`: default of --results; `limit`: of --limit, minutes."""
+    parser = argparse.ArgumentParser(description=description,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default="", metavar="REGEX")
     parser.add_argument("--budget", type=float, default=math.inf, metavar="MINUTES",
                         help="start no run after this time")
@@ -81,6 +105,7 @@ def add_options(parser, results, limit):
     parser.add_argument("--keep", type=pathlib.Path, metavar="DIR", help="keep the runs' files")
     parser.add_argument("--results", type=pathlib.Path, default=results, metavar="PATH")
     parser.add_argument("--program", default=str(ROOT / "build" / "bin" / "gasgrain"))
+    return parser.parse_args()
 
 
 def interrupt(*_):

@@ -7,13 +7,9 @@ searched in names such as `column cgm-n3 l=2 seed=1` or `bed cgm-n3 l=2 seed=3 c
 that fails has a row that says why and is not repeated; delete the row to repeat it.
 """
 
-import argparse
 import os
 import pathlib
-import shutil
 import sys
-import tempfile
-import time
 
 import measures
 from cases import MESHES, SCENES, all_cases
@@ -41,48 +37,40 @@ def prepare(case, directory):
         (directory / name).write_text(text())
 
 
+def measured(case, directory, status):
+    """(status, grains inserted, values): a run that lost grains has failed."""
+    scene = SCENES[case.scene]
+    if status != "ok":
+        return status, scene.grains(case), {}
+    frames = measures.read_frames(directory / "frames.dump")
+    inserted = len(frames[0])
+    if inserted < 0.99 * scene.grains(case):
+        return f"failed: only {inserted} of {scene.grains(case)} grains inserted", inserted, {}
+    if len(frames[-1]) < inserted and not scene.loses_grains:
+        return f"failed: {inserted - len(frames[-1])} grains lost", inserted, {}
+    return status, inserted, scene.measure(frames, scene, case, directory)
+
+
 def one_run(case, given, version):
     scene, dt = SCENES[case.scene], SCENES[case.scene].step(case)
-    directory = pathlib.Path(tempfile.mkdtemp(prefix="gasgrain-bench-"))
-    try:
-        prepare(case, directory)
-        status, cpu = resumable_queue.run_program(given.program, directory, 60 * given.limit)
-        if resumable_queue.STOPPED.is_set():
-            return
-        values = {}
-        grains = scene.grains(case)
-        if status == "ok":
-            frames = measures.read_frames(directory / "frames.dump")
-            inserted = len(frames[0])
-            if inserted < 0.99 * grains:
-                status = f"failed: only {inserted} of {grains} grains inserted"
-            elif len(frames[-1]) < inserted and not scene.loses_grains:
-                status = f"failed: {inserted - len(frames[-1])} grains lost"
-            else:
-                values = scene.measure(frames, scene, case, directory)
-            grains = inserted
+
+    def row_of(directory, status, cpu):
+        status, grains, values = measured(case, directory, status)
         steps = round((scene.settle + scene.time) / dt)
         row = dict(zip(("law", "l", "seed", "factor", "value"), case.key), grains=grains,
                    steps=steps, grain_steps=f"{grains * steps:.4g}", cpu_seconds=f"{cpu:.2f}",
                    step=f"{dt:.4g}", status=status, commit=version,
                    load=f"{os.getloadavg()[0]:.1f}",
                    **{name: f"{value:.6g}" for name, value in values.items()})
-        resumable_queue.add_row(given.results / f"{case.scene}.csv",
-                                COLUMNS + list(scene.quantities), row)
-        print(f"{time.strftime('%H:%M:%S')}  {name_of(case):50} {cpu:8.1f} s CPU  {status}",
-              flush=True)
-        if given.keep:
-            shutil.copytree(directory, given.keep / name_of(case).replace(" ", "_"),
-                            dirs_exist_ok=True)
-    finally:
-        shutil.rmtree(directory, ignore_errors=True)
+        table = given.results / f"{case.scene}.csv"
+        return table, COLUMNS + list(scene.quantities), row, status
+
+    resumable_queue.make_run(name_of(case), given, lambda directory: prepare(case, directory),
+                             row_of)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    resumable_queue.add_options(parser, HERE / "results", limit=60)
-    given = parser.parse_args()
+    given = resumable_queue.options(__doc__, HERE / "results", limit=60)
     done = {scene: {tuple(row[c] for c in ("law", "l", "seed", "factor", "value"))
                     for row in resumable_queue.rows_of(given.results / f"{scene}.csv")}
             for scene in SCENES}

@@ -6,13 +6,9 @@ Interrupt it whenever you like: finished points have their row, the next call co
 searched in names such as `plug interval=0.5`. To repeat a point, delete its row.
 """
 
-import argparse
 import os
 import pathlib
-import shutil
 import sys
-import tempfile
-import time
 
 import judge
 import scenes
@@ -29,13 +25,11 @@ COLUMNS = ["name", "scene", *FACTORS, "diameter", "within", "verdict", "why", "p
 
 
 def one_point(point, given, version):
-    directory = pathlib.Path(tempfile.mkdtemp(prefix="gasgrain-stability-"))
-    try:
+    def prepare(directory):
         (directory / "scene.in").write_text(scenes.script(point))
         (directory / "case.toml").write_text(scenes.case_file(point))
-        status, cpu = resumable_queue.run_program(given.program, directory, 60 * given.limit)
-        if resumable_queue.STOPPED.is_set():
-            return
+
+    def row_of(directory, status, cpu):
         measured = judge.measure(point, directory) if status == "ok" else {}
         verdict, why = judge.verdict(status, measured, directory)
         row = {name: getattr(point, name) for name in FACTORS}
@@ -43,21 +37,13 @@ def one_point(point, given, version):
         row |= {"name": point.name, "scene": point.scene, "diameter": point.diameter,
                 "within": int(point.is_within), "verdict": verdict, "why": why,
                 "cpu_seconds": f"{cpu:.1f}", "status": status, "commit": version}
-        resumable_queue.add_row(given.results, COLUMNS, row)
-        print(f"{time.strftime('%H:%M:%S')}  {point.name:32} {cpu:6.1f} s CPU  {verdict:8} {why}",
-              flush=True)
-        if given.keep:
-            shutil.copytree(directory, given.keep / point.name.replace(" ", "_"),
-                            dirs_exist_ok=True)
-    finally:
-        shutil.rmtree(directory, ignore_errors=True)
+        return given.results, COLUMNS, row, f"{verdict:8} {why}"
+
+    resumable_queue.make_run(point.name, given, prepare, row_of)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    resumable_queue.add_options(parser, HERE / "map.csv", limit=2)
-    given = parser.parse_args()
+    given = resumable_queue.options(__doc__, HERE / "map.csv", limit=2)
     done = {row["name"] for row in resumable_queue.rows_of(given.results)}
     resumable_queue.make_missing(given, all_points(), lambda point: point.name,
                                  lambda point: point.name in done, one_point)
