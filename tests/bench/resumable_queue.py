@@ -18,6 +18,10 @@ import threading
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests"))
+
+from mpi_environment import mpi_environment  # noqa: E402
+
 LOCK = threading.Lock()
 RUNNING = set()  # processes
 STOPPED = threading.Event()  # rows of runs that were cut off are not written
@@ -51,12 +55,9 @@ def commit():
 
 def run_program(program, directory, limit):
     """Runs scene.in of the directory for at most `limit` s: (status, CPU seconds)."""
-    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1",
-                   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                   "OMPI_MCA_hwloc_base_binding_policy": "none", "OMP_NUM_THREADS": "1"}
     with open(directory / "screen", "w") as screen:
         process = subprocess.Popen([program, "-in", "scene.in", "-log", "log"], cwd=directory,
-                                   env=environment, stdin=subprocess.DEVNULL, stdout=screen,
+                                   env=mpi_environment(), stdin=subprocess.DEVNULL, stdout=screen,
                                    stderr=subprocess.STDOUT, start_new_session=True)
         RUNNING.add(process)
         watch = threading.Timer(limit, process.kill)

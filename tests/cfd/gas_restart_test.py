@@ -6,6 +6,7 @@ usage: gas_restart_test.py GASGRAIN_GAS MPIEXEC
 import csv
 import filecmp
 import os
+import pathlib
 import shutil
 import signal
 import subprocess
@@ -13,22 +14,12 @@ import sys
 import tempfile
 import time
 
-CASE = """
-[grid]
-lower = [0, 0, 0]
-upper = [0.032, 0.016, 0.048]
-cells = [16, 8, 24]
-[gas]
-density = 1.2
-viscosity = 1.8e-5
-gravity = [0, 0, -9.81]
-[boundary]
-x_lower = {type = "no-slip"}
-x_upper = {type = "no-slip"}
-y_lower = {type = "slip"}
-y_upper = {type = "slip"}
-z_lower = {type = "inlet", superficial_velocity = 0.3}
-z_upper = {type = "outlet"}
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+
+from gas_case import changed, gas_case, inlet  # noqa: E402
+
+CASE = gas_case((0.032, 0.016, 0.048), (16, 8, 24), x="no-slip", below=inlet(0.3),
+                gravity=(0, 0, -9.81)) + """
 [[body]]
 name = "tube"
 cylinder = {point = [0.015, 0, 0.03], axis = [0, 1, 0], radius = 0.005}
@@ -215,7 +206,7 @@ def a_failed_step_leaves_the_last_good_state(program):
 
 
 def a_finished_run_can_be_extended(program):
-    output = program.finished("whole1", 1, text=CASE.replace("end_time = 0.25", "end_time = 0.26"),
+    output = program.finished("whole1", 1, text=changed(CASE, "end_time = 0.25", "end_time = 0.26"),
                               options=["--restart", "latest"])
     check("from 0.25 to 0.26 s" in output, output)
 
@@ -241,15 +232,15 @@ def fails(program, expected, *args, **kwargs):
 def other_cases_are_refused_by_name(program):
     for key, old, new in REFUSED:
         ranks = 2 if key == "gas.density" else 1
-        fails(program, ["cannot continue from", key], "whole1", ranks, text=CASE.replace(old, new),
+        fails(program, ["cannot continue from", key], "whole1", ranks, text=changed(CASE, old, new),
               options=["--restart", "latest"])
     fails(program, ["1.2 in the checkpoint", "1.3 in the case"], "whole1",
-          text=CASE.replace("density = 1.2", "density = 1.3"), options=["--restart", "latest"])
+          text=changed(CASE, "density = 1.2", "density = 1.3"), options=["--restart", "latest"])
 
 
 def sides_may_change_and_are_named(program):
-    text = CASE.replace("superficial_velocity = 0.3", "superficial_velocity = 0.2")
-    text = text.replace("end_time = 0.25", "end_time = 0.255")
+    text = changed(CASE, "superficial_velocity = 0.3", "superficial_velocity = 0.2")
+    text = changed(text, "end_time = 0.25", "end_time = 0.255")
     first = program.path("whole2", program.checkpoints("whole2")[-1])
     output = program.finished("changed", 1, text=text, options=["--restart", first])
     check("boundary.z_lower.superficial_velocity is 0.3 in the checkpoint" in output, output)

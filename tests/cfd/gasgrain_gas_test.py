@@ -6,25 +6,17 @@ Usage: gasgrain_gas_test.py GASGRAIN_GAS MPIEXEC
 import csv
 import json
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
 
-CASE = """
-[grid]
-lower = [0, 0, 0]
-upper = [0.004, 0.004, 0.0156]
-cells = [2, 2, 13]
-[gas]
-density = 10
-viscosity = 1.5e-3
-[boundary]
-x_lower = {type = "slip"}
-x_upper = {type = "slip"}
-y_lower = {type = "slip"}
-y_upper = {type = "slip"}
-z_lower = {type = "inlet", superficial_velocity = 0.01}
-z_upper = {type = "outlet"}
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+
+from gas_case import changed, gas_case, inlet  # noqa: E402
+
+CASE = gas_case((0.004, 0.004, 0.0156), (2, 2, 13), below=inlet(0.01), density=10,
+                viscosity=1.5e-3) + """
 [fixed_bed]
 void_fraction = 0.451335
 diameter = 1e-3
@@ -72,7 +64,7 @@ def good_run_writes_its_files(program, directory):
 
 
 def a_frame_holds_the_chosen_fields(program, directory):
-    text = CASE.replace("interval = 5e-4", 'fields = ["pressure"]')
+    text = changed(CASE, "interval = 5e-4", 'fields = ["pressure"]')
     result = run(program, directory, text, ranks=2)
     check(result.returncode == 0, result.stderr)
     with open(os.path.join(directory, "out", "gas.xdmf")) as file:
@@ -95,11 +87,11 @@ BAD = [
 
 def bad_runs_say_why_once(program, directory):
     for name, (old, new), expected in BAD:
-        result = run(program, directory, CASE.replace(old, new), ranks=2)
+        result = run(program, directory, changed(CASE, old, new), ranks=2)
         check(result.returncode != 0, name + ": exit code 0")
         check(result.stderr.count("gasgrain-gas: error:") == 1, name + ": " + result.stderr)
         check(expected in result.stderr, name + ": " + result.stderr)
-    thin = CASE.replace("[2, 2, 13]", "[1, 1, 2]")
+    thin = changed(CASE, "[2, 2, 13]", "[1, 1, 2]")
     result = run(program, directory, thin, ranks=3)
     check(result.returncode != 0 and "fewer ranks" in result.stderr, result.stderr)
 

@@ -8,8 +8,10 @@ import pathlib
 import random
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "liggghts_plugins"))
+TESTS = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(TESTS), str(TESTS / "liggghts_plugins")]
 
+from gas_case import body, changed, gas_case, inlet, plane  # noqa: E402,F401
 from liggghts_run import Bench  # noqa: E402,F401
 
 DIAMETER, RATIO, DENSITY = 5e-4, 5, 2500.0  # of the grains; l; kg/m^3
@@ -17,54 +19,9 @@ BOX = (0.0075, 0.005, 0.02)  # m
 STEP = 1.2e-5  # s, an eighth of the contact time of 0.5 N/m
 AREA = BOX[0] * BOX[1]
 
-CASE = """
-[grid]
-lower = [0, 0, 0]
-upper = [0.0075, 0.005, 0.02]
-cells = [6, 4, 16]
-[gas]
-density = 1.0
-viscosity = 1.8e-5
-gravity = [0, 0, -9.81]
-[boundary]
-x_lower = {{type = "no-slip"}}
-x_upper = {{type = "no-slip"}}
-y_lower = {{type = "no-slip"}}
-y_upper = {{type = "no-slip"}}
-z_lower = {{type = {bottom}}}
-z_upper = {{type = "outlet", pressure = 0}}
-[[body]]
-name = "floor"
-acts_on = ["grains"]
-plane = {{point = [0, 0, 0], normal = [0, 0, 1]}}
-[[body]]
-name = "left"
-acts_on = ["grains"]
-plane = {{point = [0, 0, 0], normal = [1, 0, 0]}}
-[[body]]
-name = "right"
-acts_on = ["grains"]
-plane = {{point = [0.0075, 0, 0], normal = [-1, 0, 0]}}
-[[body]]
-name = "front"
-acts_on = ["grains"]
-plane = {{point = [0, 0, 0], normal = [0, 1, 0]}}
-[[body]]
-name = "back"
-acts_on = ["grains"]
-plane = {{point = [0, 0.005, 0], normal = [0, -1, 0]}}
-[[body]]
-name = "tube"
-cylinder = {{point = [0.0037, 0.0025, 0.0031], axis = [0, 1, 0], radius = 0.0012}}
-[numerics]
-pressure_tolerance = 1e-10
-[coupling]
-{coupling}
-[output]
-interval = {interval}
-"""
-
-INLET = '"inlet", superficial_velocity = 0.1'
+WALLS = {"floor": plane((0, 0, 0), (0, 0, 1)), "left": plane((0, 0, 0), (1, 0, 0)),
+         "right": plane((BOX[0], 0, 0), (-1, 0, 0)), "front": plane((0, 0, 0), (0, 1, 0)),
+         "back": plane((0, BOX[1], 0), (0, -1, 0))}
 
 SCRIPT = """
 units si
@@ -86,24 +43,27 @@ pair_coeff * *
 timestep {step}
 fix gravity all gravity 9.81 vector 0 0 -1
 fix integrate all nve/sphere
-fix floor all wall/sdf case case.toml body floor type 2
-fix left all wall/sdf case case.toml body left type 2
-fix right all wall/sdf case case.toml body right type 2
-fix front all wall/sdf case case.toml body front type 2
-fix back all wall/sdf case case.toml body back type 2
-fix tube all wall/sdf case case.toml body tube type 2
+{walls}
 fix gas all couple/gas case case.toml out out
 thermo 1000
 {runs}
 """
 
 
-def case(bottom=INLET, coupling="", interval=0.01):
-    return CASE.format(bottom=bottom, coupling=coupling, interval=interval)
+def case(bottom=inlet(0.1), coupling="", interval=0.01):
+    tube = "cylinder = {point = [0.0037, 0.0025, 0.0031], axis = [0, 1, 0], radius = 0.0012}"
+    return (gas_case(BOX, (6, 4, 16), x="no-slip", y="no-slip", below=bottom, density=1.0,
+                     gravity=(0, 0, -9.81))
+            + "".join(body(name, shape, acts_on="grains") for name, shape in WALLS.items())
+            + body("tube", tube)
+            + f"[numerics]\npressure_tolerance = 1e-10\n[coupling]\n{coupling}\n"
+            f"[output]\ninterval = {interval}\n")
 
 
 def script(runs):
-    return SCRIPT.format(ratio=RATIO, step=STEP, runs=runs)
+    walls = "\n".join(f"fix {name} all wall/sdf case case.toml body {name} type 2"
+                      for name in (*WALLS, "tube"))
+    return SCRIPT.format(ratio=RATIO, step=STEP, walls=walls, runs=runs)
 
 
 def positions():

@@ -39,12 +39,12 @@ class CoupledBed(unittest.TestCase):
         """The left half of the gas grid is solid and its ranks own all the grains."""
         reference = None
         for ranks in (1, 3, 4, 8):
-            case = (bed.case(coupling="exchange_interval = 6e-5", interval=1e-5)
-                    .replace("lower = [0, 0, 0]\nupper", "lower = [-0.0075, 0, 0]\nupper")
-                    .replace("cells = [6, 4, 16]", "cells = [12, 4, 16]")
-                    .replace("[numerics]\n", '[[body]]\nname = "rock"\nacts_on = ["gas"]\n'
-                             "plane = {point = [0, 0, 0], normal = [1, 0, 0]}\n"
-                             f"[numerics]\nranks = [{ranks}, 1, 1]\n"))
+            case = bed.changed(bed.case(coupling="exchange_interval = 6e-5", interval=1e-5),
+                               "lower = [0, 0, 0]\nupper", "lower = [-0.0075, 0, 0]\nupper")
+            case = bed.changed(case, "cells = [6, 4, 16]", "cells = [12, 4, 16]")
+            case = bed.changed(case, "[numerics]\n", '[[body]]\nname = "rock"\nacts_on = ["gas"]\n'
+                               "plane = {point = [0, 0, 0], normal = [1, 0, 0]}\n"
+                               f"[numerics]\nranks = [{ranks}, 1, 1]\n")
             bench = bed.bench(case)
             # the bed fills the lower 8 of 20 mm: the upper ranks own no grains, but the gas
             bench.run(bed.script("run 30").replace("processors * * 1", "processors 1 1 *"),
@@ -166,8 +166,8 @@ class CoupledBed(unittest.TestCase):
         # the tube shakes the bed far above the energy that the gas gives
         moving = ('name = "tube"\nmotion = {oscillate = {amplitude = [0.0005, 0, 0.0005], '
                   'frequency = 100}}')
-        bench = bed.bench(bed.case(coupling="series_interval = 5e-4").replace('name = "tube"',
-                                                                              moving))
+        bench = bed.bench(bed.changed(bed.case(coupling="series_interval = 5e-4"),
+                                      'name = "tube"', moving))
         done = bench.run(bed.script("run 400"), ranks=2)
         self.assertNotIn("audit", done.text)
         found = bed.quantities(bench.directory)
@@ -242,7 +242,7 @@ class CoupledBed(unittest.TestCase):
                                        msg=name)
 
     def test_grains_come_to_rest_without_a_flow(self):
-        bench = bed.bench(bed.case(bottom='"no-slip"'))
+        bench = bed.bench(bed.case(bottom="no-slip"))
         bench.run(bed.script("run 15000"), ranks=2)
         energy = [row["kinetic_energy"] for row in bed.series(bench.directory)]
         self.assertLess(energy[-1], 1e-4 * max(energy))
@@ -278,7 +278,7 @@ class BadInput(unittest.TestCase):
         self.assert_fails(["fix gas couple/gas", "'output'"], script=script)
 
     def test_more_ranks_than_layers(self):
-        thin = bed.case().replace("cells = [6, 4, 16]", "cells = [1, 1, 2]")
+        thin = bed.changed(bed.case(), "cells = [6, 4, 16]", "cells = [1, 1, 2]")
         self.assert_fails(["cells"], thin, ranks=3)
 
 

@@ -8,57 +8,31 @@
 #include "cfd/loops.hpp"
 #include "coupling/shared/error.hpp"
 #include "coupling_scene.hpp"
+#include "tests/gas_case_text.hpp"
 
 namespace gasgrain::coupling {
 namespace {
 
 // A small bed with a tube in it, gas from below.
-const char* const bed = R"(
-[grid]
-lower = [0, 0, 0]
-upper = [0.010, 0.005, 0.020]
-cells = [8, 4, 16]
-[gas]
-density = 1.2
-viscosity = 1.8e-5
-gravity = [0, 0, -9.81]
-[boundary]
-x_lower = {type = "no-slip"}
-x_upper = {type = "slip"}
-y_lower = {type = "no-slip"}
-y_upper = {type = "no-slip"}
-z_lower = {type = "inlet", superficial_velocity = 0.3}
-z_upper = {type = "outlet", pressure = 0}
-[[body]]
+const GasCaseText bed_gas{.upper = Vec3(0.010, 0.005, 0.020),
+                          .cells = {8, 4, 16},
+                          .gas = {.density = 1.2, .gravity = Vec3(0, 0, -9.81)},
+                          .x = {"no-slip", "slip"},
+                          .y = {"no-slip", "no-slip"},
+                          .z = {inlet(0.3), "outlet"}};
+const std::string tube = R"([[body]]
 name = "tube"
 cylinder = {point = [0.0051, 0.0025, 0.0062], axis = [0, 1, 0], radius = 0.0021}
-[numerics]
-pressure_tolerance = 1e-10
 )";
+const std::string bed = bed_gas.text() + tube + "[numerics]\npressure_tolerance = 1e-10\n";
 
 // The same, closed on all sides and with a finer tolerance.
-const char* const vessel = R"(
-[grid]
-lower = [0, 0, 0]
-upper = [0.010, 0.005, 0.020]
-cells = [8, 4, 16]
-[gas]
-density = 1.2
-viscosity = 1.8e-5
-gravity = [0, 0, -9.81]
-[boundary]
-x_lower = {type = "no-slip"}
-x_upper = {type = "no-slip"}
-y_lower = {type = "no-slip"}
-y_upper = {type = "no-slip"}
-z_lower = {type = "no-slip"}
-z_upper = {type = "no-slip"}
-[[body]]
-name = "tube"
-cylinder = {point = [0.0051, 0.0025, 0.0062], axis = [0, 1, 0], radius = 0.0021}
-[numerics]
-pressure_tolerance = 1e-13
-)";
+std::string closed_vessel() {
+  GasCaseText gas = bed_gas;
+  gas.x = gas.z = {"no-slip", "no-slip"};
+  return gas.text() + tube + "[numerics]\npressure_tolerance = 1e-13\n";
+}
+const std::string vessel = closed_vessel();
 
 // Grains of 0.5 mm that move at random around the tube.
 std::vector<GrainRecord> bed_grains() {
@@ -107,7 +81,7 @@ TEST(GasCoupling, obeys_newtons_third_law) {
 // Whatever spreads the grains, the gas loses what they get.
 TEST(GasCoupling, conserves_volume_and_momentum_with_every_mapping) {
   for (const std::string& mapping : mapping_names()) {
-    const CoupledCase given(std::string(bed) + "[coupling]\nmapping = \"" + mapping + "\"\n");
+    const CoupledCase given(bed + "[coupling]\nmapping = \"" + mapping + "\"\n");
     GasCoupling coupling(given.gas, given.options, MPI_COMM_WORLD);
     DealtGrains grains(bed_grains(), MPI_COMM_WORLD);
     coupling.begin(grains.forces, grains.mine());
@@ -123,7 +97,7 @@ TEST(GasCoupling, conserves_volume_and_momentum_with_every_mapping) {
 
 // The tube swings through the grains of a closed vessel.
 TEST(GasCoupling, conserves_volume_and_momentum_around_a_moving_body) {
-  const std::string text = std::string(vessel) + R"(
+  const std::string text = vessel + R"(
 [[body]]
 name = "plunger"
 sphere = {center = [0.0052, 0.0026, 0.0142], radius = 0.0017}
@@ -179,7 +153,7 @@ TEST(GasCoupling, divides_a_long_interval_and_keeps_the_exchange_exact) {
 
 // Equal grains are a mixture with d_m = d; of unlike ones momentum is exchanged as exactly.
 TEST(GasCoupling, drags_mixtures_by_their_sauter_diameter) {
-  const CoupledCase plain(bed), mixed(std::string(bed) + "[coupling]\nmixture = \"sauter\"\n");
+  const CoupledCase plain(bed), mixed(bed + "[coupling]\nmixture = \"sauter\"\n");
   std::vector<Vec3> forces[2];
   for (const CoupledCase* given : {&plain, &mixed}) {
     GasCoupling coupling(given->gas, given->options, MPI_COMM_WORLD);
@@ -213,7 +187,7 @@ TEST(GasCoupling, drags_mixtures_by_their_sauter_diameter) {
 }
 
 TEST(GasCoupling, one_way_leaves_the_gas_alone) {
-  const CoupledCase given(std::string(bed) + "[coupling]\nfeedback = \"one-way\"\n");
+  const CoupledCase given(bed + "[coupling]\nfeedback = \"one-way\"\n");
   GasCoupling coupling(given.gas, given.options, MPI_COMM_WORLD);
   DealtGrains grains(bed_grains(), MPI_COMM_WORLD);
   coupling.begin(grains.forces, grains.mine());

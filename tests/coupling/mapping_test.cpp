@@ -8,6 +8,7 @@
 
 #include "coupling/shared/error.hpp"
 #include "coupling_scene.hpp"
+#include "tests/gas_case_text.hpp"
 
 namespace gasgrain::coupling {
 namespace {
@@ -103,12 +104,8 @@ TEST(Mapping, spline_and_trilinear_keep_the_centre_of_mass) {
 }
 
 TEST(Mapping, is_an_option_of_the_case) {
-  std::string gas =
-      "[grid]\nlower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [4, 4, 4]\n"
-      "[gas]\ndensity = 1\nviscosity = 1\n[boundary]\n";
-  for (const char* side : {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"})
-    gas += std::string(side) + " = {type = \"slip\"}\n";
-  gas += "[coupling]\n";
+  const std::string gas =
+      GasCaseText{.upper = Vec3::Ones(), .cells = {4, 4, 4}}.text() + "[coupling]\n";
   EXPECT_EQ(CoupledCase(gas).options.mapping, Mapping::spline);
   EXPECT_EQ(CoupledCase(gas + "mapping = \"exact\"").options.mapping, Mapping::exact);
   EXPECT_THROW(CoupledCase(gas + "mapping = \"nearest\""), UserError);

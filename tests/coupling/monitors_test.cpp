@@ -7,27 +7,19 @@
 #include "coupling/bubbles.hpp"
 #include "coupling/shared/error.hpp"
 #include "coupling_scene.hpp"
+#include "tests/gas_case_text.hpp"
 
 namespace gasgrain::coupling {
 namespace {
 
 std::string box_case(const std::string& monitors) {
-  return R"(
-[grid]
-lower = [0, 0, 0]
-upper = [0.020, 0.010, 0.030]
-cells = [16, 8, 24]
-[gas]
-density = 1.2
-viscosity = 1.8e-5
-[boundary]
-x_lower = {type = "no-slip"}
-x_upper = {type = "no-slip"}
-y_lower = {type = "no-slip"}
-y_upper = {type = "no-slip"}
-z_lower = {type = "no-slip"}
-z_upper = {type = "outlet", pressure = 0}
-)" + monitors;
+  const GasCaseText gas{.upper = Vec3(0.020, 0.010, 0.030),
+                        .cells = {16, 8, 24},
+                        .gas = {.density = 1.2},
+                        .x = {"no-slip", "no-slip"},
+                        .y = {"no-slip", "no-slip"},
+                        .z = {"no-slip", "outlet"}};
+  return gas.text() + monitors;
 }
 
 const GrainKind kind{.ratio = 5};

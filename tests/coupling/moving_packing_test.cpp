@@ -7,32 +7,22 @@
 #include <cmath>
 
 #include "coupling_scene.hpp"
+#include "tests/gas_case_text.hpp"
 
 namespace gasgrain::coupling {
 namespace {
 
 // A wall off the grid lines; periodic along the motion. Cells of 1.25 mm.
-const char* const channel = R"(
-[grid]
-lower = [-0.002, 0, 0]
-upper = [0.008, 0.005, 0.010]
-cells = [8, 4, 8]
-[gas]
-density = 1.0
-viscosity = 1.8e-5
-[boundary]
-x_lower = {type = "no-slip"}
-x_upper = {type = "slip"}
-y_lower = {type = "periodic"}
-y_upper = {type = "periodic"}
-z_lower = {type = "periodic"}
-z_upper = {type = "periodic"}
-[[body]]
-name = "wall"
-plane = {point = [%g, 0, 0], normal = [1, 0, 0]}
-[numerics]
-pressure_tolerance = 1e-10
-)";
+std::string channel(double wall) {
+  const GasCaseText gas{.lower = Vec3(-0.002, 0, 0),
+                        .upper = Vec3(0.008, 0.005, 0.010),
+                        .cells = {8, 4, 8},
+                        .x = {"no-slip", "slip"},
+                        .y = {"periodic", "periodic"},
+                        .z = {"periodic", "periodic"}};
+  return gas.text() + "[[body]]\nname = \"wall\"\nplane = {point = " + toml(Vec3(wall, 0, 0)) +
+         ", normal = [1, 0, 0]}\n[numerics]\npressure_tolerance = 1e-10\n";
+}
 
 constexpr double speed = 0.1, weight_of_mass = 9.81;
 
@@ -45,9 +35,7 @@ class MovingPacking : public testing::TestWithParam<Scene> {};
 
 TEST_P(MovingPacking, has_no_gas_drag_next_to_the_wall) {
   const auto [dt, wall] = GetParam();
-  char text[1000];
-  std::snprintf(text, sizeof text, channel, wall);
-  const CoupledCase given(text);
+  const CoupledCase given(channel(wall));
   GasCoupling coupling(given.gas, given.options, MPI_COMM_SELF);
   const GrainKind kind{.ratio = 5};  // 0.5 mm
   // Cubic packing of void fraction 0.476, in contact with the wall.

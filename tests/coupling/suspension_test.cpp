@@ -6,37 +6,21 @@
 
 #include "cfd/loops.hpp"
 #include "coupling_scene.hpp"
+#include "tests/gas_case_text.hpp"
 
 namespace gasgrain::coupling {
 namespace {
 
-// `z`: condition of both ends.
-std::string column(const std::string& z, double height, const std::string& cells,
-                   const std::string& coupling) {
-  char text[1000];
-  std::snprintf(text, sizeof text, R"(
-[grid]
-lower = [0, 0, 0]
-upper = [0.001, 0.001, %.17g]
-cells = [%s]
-[gas]
-density = 10.0
-viscosity = 1e-3
-[boundary]
-x_lower = {type = "periodic"}
-x_upper = {type = "periodic"}
-y_lower = {type = "periodic"}
-y_upper = {type = "periodic"}
-z_lower = {type = "%s"}
-z_upper = {type = "%s"}
-[numerics]
-convection = "none"
-pressure_tolerance = 1e-11
-[coupling]
-%s
-)",
-                height, cells.c_str(), z.c_str(), z.c_str(), coupling.c_str());
-  return text;
+// Cells of 0.25 mm; `z`: condition of both ends.
+std::string column(const std::string& z, double height, const std::string& coupling) {
+  const GasCaseText gas{.upper = Vec3(0.001, 0.001, height),
+                        .cells = {4, 4, static_cast<int>(std::lround(height / 0.25e-3))},
+                        .gas = {.density = 10.0, .viscosity = 1e-3},
+                        .x = {"periodic", "periodic"},
+                        .y = {"periodic", "periodic"},
+                        .z = {z, z}};
+  return gas.text() +
+         "[numerics]\nconvection = \"none\"\npressure_tolerance = 1e-11\n[coupling]\n" + coupling;
 }
 
 // Grains of 0.1 mm on a cubic lattice of `per_side` places per mm, between two heights.
@@ -93,7 +77,7 @@ void follow(std::vector<GrainRecord>& grains, const std::vector<Vec3>& forces,
 // The grains exchange momentum in their places: where the void fraction changes, the advective form
 // of the gas's equation leaves a remainder in its momentum.
 TEST(Suspension, impulse_between_gas_and_a_cloud_keeps_the_momentum) {
-  const CoupledCase given(column("periodic", 0.002, "4, 4, 8", ""));
+  const CoupledCase given(column("periodic", 0.002, ""));
   GasCoupling coupling(given.gas, given.options, MPI_COMM_SELF);
   std::vector<GrainRecord> grains = cloud(5, 0.0004, 0.0014, Vec3(0.02, 0.01, 0.05));
   std::vector<Vec3> forces(grains.size(), Vec3::Zero());
@@ -122,7 +106,7 @@ TEST(Suspension, settles_by_the_law_of_richardson_and_zaki) {
   const double terminal = 2500 * 9.81 * 1e-8 / (18 * 1e-3);
   std::vector<double> logs_eps, logs_v;
   for (const int per_side : {4, 5, 6}) {
-    const CoupledCase given(column("no-slip", 0.004, "4, 4, 16", ""));
+    const CoupledCase given(column("no-slip", 0.004, ""));
     GasCoupling coupling(given.gas, given.options, MPI_COMM_SELF);
     const double eps = 1.0 - M_PI / 6 * std::pow(0.1 * per_side, 3);
     const double law = terminal * std::pow(eps, 4.65);
@@ -158,7 +142,7 @@ TEST(Suspension, settles_by_the_law_of_richardson_and_zaki) {
 // The difference of impulses goes back to the gas: nothing is lost but what is on its way and the
 // remainder of the advective form, which is reported and small.
 TEST(Suspension, drag_that_follows_the_grains_keeps_the_momentum) {
-  const CoupledCase given(column("periodic", 0.002, "4, 4, 8", ""));
+  const CoupledCase given(column("periodic", 0.002, ""));
   GasCoupling coupling(given.gas, given.options, MPI_COMM_SELF);
   std::vector<GrainRecord> grains = cloud(5, 0.0004, 0.0014, Vec3(0.02, 0.01, 0.05));
   std::vector<Vec3> forces(grains.size(), Vec3::Zero());
@@ -185,7 +169,7 @@ TEST(Suspension, drag_that_follows_the_grains_keeps_the_momentum) {
 // One grain in a wide stream, exchanges four times its relaxation time apart: held drag throws it
 // to and fro with growing amplitude, drag that follows it brings it to the gas's velocity.
 TEST(Suspension, drag_that_follows_the_grains_has_no_limit_of_its_own) {
-  const CoupledCase given(column("periodic", 0.002, "4, 4, 8", "feedback = \"one-way\""));
+  const CoupledCase given(column("periodic", 0.002, "feedback = \"one-way\""));
   const double relaxation = 2500 * 1e-8 / (18 * 1e-3);
   double left[2];
   for (const bool follows : {false, true}) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "coupling_scene.hpp"
+#include "tests/gas_case_text.hpp"
 
 namespace gasgrain::coupling {
 namespace {
@@ -17,31 +18,10 @@ const Reference references[] = {{1e-4, 2500, 0.5686}, {1.8e-4, 1516, 0.8885}, {1
 
 // A column of 8 x 8 x 8 cells, ten original diameters wide, gas from below.
 std::string column(double cell, double gas_velocity, const std::string& feedback) {
-  char text[1000];
-  std::snprintf(text, sizeof text, R"(
-[grid]
-lower = [0, 0, 0]
-upper = [%.17g, %.17g, %.17g]
-cells = [8, 8, 8]
-[gas]
-density = 1.0
-viscosity = 1.8e-5
-[boundary]
-x_lower = {type = "slip"}
-x_upper = {type = "slip"}
-y_lower = {type = "slip"}
-y_upper = {type = "slip"}
-z_lower = {type = "inlet", superficial_velocity = %.17g}
-z_upper = {type = "outlet", pressure = 0}
-[initial]
-velocity = [0, 0, %.17g]
-[numerics]
-pressure_tolerance = 1e-9
-[coupling]
-feedback = "%s"
-)",
-                8 * cell, 8 * cell, 8 * cell, gas_velocity, gas_velocity, feedback.c_str());
-  return text;
+  const GasCaseText gas{
+      .upper = Vec3::Constant(8 * cell), .cells = {8, 8, 8}, .z = {inlet(gas_velocity), "outlet"}};
+  return gas.text() + "[initial]\nvelocity = " + toml(Vec3(0, 0, gas_velocity)) +
+         "\n[numerics]\npressure_tolerance = 1e-9\n[coupling]\nfeedback = \"" + feedback + "\"\n";
 }
 
 // Relative velocity of gas and grain when weight and gas force balance. The grain is held in the

@@ -5,18 +5,23 @@ against stock liggghts elsewhere. Differences are round-off and grow with time (
 grains are chaotic); a wrong force, a lost contact history or a stale ghost shows as 1e-3 or more.
 """
 
+import pathlib
 import random
 import re
 import signal
 import subprocess
+import sys
 import time
 import unittest
 
-import bed_of_grains as bed
-from engine_scenes import (FORCES, RADIUS, SCALE, SIDE, SPEED, UNWRAPPED, WALLS, EngineTest, crowd,
-                           files, plate, reference_log, scene, thermo_of)
-from liggghts_run import (ENVIRONMENT, GASGRAIN, MPIEXEC, Bench, Grain, cgm_properties, data_file,
-                          dump_command, largest_difference, thermo)
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+
+import bed_of_grains as bed  # noqa: E402
+from engine_scenes import (FORCES, RADIUS, SCALE, SIDE, SPEED, UNWRAPPED, WALLS,  # noqa: E402
+                           EngineTest, crowd, files, plate, reference_log, scene, thermo_of)
+from gas_case import gas_case, inlet  # noqa: E402
+from liggghts_run import (ENVIRONMENT, GASGRAIN, MPIEXEC, Bench, Grain,  # noqa: E402
+                          cgm_properties, data_file, dump_command, largest_difference, thermo)
 
 
 class SameMotion(EngineTest):
@@ -222,27 +227,8 @@ class HandingOver(EngineTest):
         self.assertTrue((fused.directory / "r.450.restart").exists())
 
 
-GAS = f"""
-[grid]
-lower = [0.0, 0.0, 0.0]
-upper = [{2 * SIDE}, {SIDE}, {2 * SIDE}]
-cells = [6, 3, 6]
-[gas]
-density = 1.2
-viscosity = 1.8e-5
-gravity = [0.0, 0.0, -9.81]
-[boundary]
-z_lower = {{type = "inlet", superficial_velocity = 0.5}}
-z_upper = {{type = "outlet", pressure = 0.0}}
-x_lower = {{type = "slip"}}
-x_upper = {{type = "slip"}}
-y_lower = {{type = "slip"}}
-y_upper = {{type = "slip"}}
-[numerics]
-pressure_tolerance = 1e-12
-[coupling]
-exchange_interval = 5e-5
-"""
+GAS = (gas_case((2 * SIDE, SIDE, 2 * SIDE), (6, 3, 6), gravity=(0, 0, -9.81), below=inlet(0.5))
+       + "[numerics]\npressure_tolerance = 1e-12\n[coupling]\nexchange_interval = 5e-5\n")
 
 
 class Gas(EngineTest):

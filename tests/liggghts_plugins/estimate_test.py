@@ -5,9 +5,14 @@ import pathlib
 import re
 import statistics
 import subprocess
+import sys
 import unittest
 
-from liggghts_run import (Bench, ENVIRONMENT, GASGRAIN, Grain, cgm_properties, data_file, preamble)
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+
+from gas_case import gas_case, inlet  # noqa: E402
+from liggghts_run import (Bench, ENVIRONMENT, GASGRAIN, Grain, cgm_properties,  # noqa: E402
+                          data_file, preamble)
 
 R0, L, STEP = 50e-6, 5.0, 1e-6
 # k = 50 N/m, e = 0.9: contact time of two originals (docs/coarse_graining.md), s
@@ -42,21 +47,7 @@ def number(pattern, text):
 
 
 RESULTS = pathlib.Path(__file__).parents[1] / "bench" / "coarse_graining" / "results"
-GAS = """[grid]
-cells = [4, 4, 4]
-lower = [-1e-3, -1e-3, -1e-3]
-upper = [8e-3, 8e-3, 8e-3]
-[gas]
-density = 1.2
-viscosity = 1.8e-5
-[boundary]
-x_lower = {type = "slip"}
-x_upper = {type = "slip"}
-y_lower = {type = "slip"}
-y_upper = {type = "slip"}
-z_lower = {type = "inlet", superficial_velocity = 0.01}
-z_upper = {type = "outlet", pressure = 0}
-"""
+GAS = gas_case((8e-3, 8e-3, 8e-3), (4, 4, 4), lower=(-1e-3, -1e-3, -1e-3), below=inlet(0.01))
 
 
 def measured_change(scene, quantity, ratio):

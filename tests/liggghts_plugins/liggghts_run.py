@@ -6,20 +6,18 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import weakref
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+
+from mpi_environment import patient_environment  # noqa: E402
 
 GASGRAIN = os.environ["GASGRAIN_EXECUTABLE"]
 MPIEXEC = os.environ.get("GASGRAIN_MPIEXEC", "mpiexec")
 
-ENVIRONMENT = {
-    **os.environ,
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "OMPI_MCA_mpi_yield_when_idle": "1",
-    "OMPI_MCA_hwloc_base_binding_policy": "none",
-    "OMP_NUM_THREADS": "1",
-}
+ENVIRONMENT = patient_environment()
 
 
 def stock_liggghts():

@@ -5,38 +5,9 @@ import math
 import numpy
 
 import measures
+from gas_case import inlet
 from laws import Material
-from scene import Scene, Wall, plane
-
-GAS = """[grid]
-lower = {lower}
-upper = {upper}
-cells = {cells}
-[gas]
-density = 1.2
-viscosity = 1.8e-5
-gravity = [0, 0, -9.81]
-[boundary]
-x_lower = {{type = "no-slip"}}
-x_upper = {{type = "no-slip"}}
-y_lower = {{type = "DEPTH"}}
-y_upper = {{type = "DEPTH"}}
-z_lower = {{FLOOR}}
-z_upper = {{type = "outlet"}}
-[numerics]
-pressure_tolerance = 1e-5
-[coupling]
-series_interval = SERIES
-{coupling}[output]
-interval = 1.0
-"""
-
-
-def gas_case(floor, depth, series):
-    """`depth`: the sides in front and back."""
-    return (GAS.replace("FLOOR", floor).replace("DEPTH", depth)
-            .replace("SERIES", f"{series:g}"))
-
+from scene import Gas, Scene, Wall, plane
 
 def sides(lower, upper, axis, names):
     """Two walls that face each other."""
@@ -80,9 +51,9 @@ BED = Scene(
            Wall("tube",
                 "cylinder = {point = [0.0125, 0, 0.01], axis = [0, 1, 0], radius = 0.0025}",
                 # stock takes z before x
-                "primitive type 2 ycylinder 0.0025 0.01 0.0125", acts_on='"grains", "gas"')),
+                "primitive type 2 ycylinder 0.0025 0.01 0.0125", acts_on="")),
     settle=0.14, time=1.3, frame=0.02, measure=measure_bed, cell=1.25e-3, sampled_wall="tube",
-    gas=gas_case('type = "inlet", superficial_velocity = 0.5', "periodic", 2.5e-3),
+    gas=Gas(floor=inlet(0.5), depth="periodic", series_interval=2.5e-3),
     quantities={"pressure_drop": ("Pa", "relative"), "pressure_deviation": ("Pa", "relative"),
                 "pressure_frequency": ("Hz", "relative"), "bed_height": ("m", "relative"),
                 "centre_height": ("m", "relative"), "side_to_side": ("-", "absolute"),
@@ -139,11 +110,11 @@ DIE = Scene(
            *sides(DIE_LOWER, DIE_TOP, 1, ("front", "back")), plane("bottom", 2, -0.004, 1),
            Wall("ledge_a", ledge(-0.01, DIE_LEFT), "mesh n_meshes 1 meshes ledges",
                 mesh="fix ledges all mesh/surface file ledges.stl type 2",
-                acts_on='"grains", "gas"'),
-           Wall("ledge_b", ledge(DIE_RIGHT, 0.03), "", acts_on='"grains", "gas"'),
+                acts_on=""),
+           Wall("ledge_b", ledge(DIE_RIGHT, 0.03), "", acts_on=""),
            plane("gate", 2, 0.0, 1, gate=True)),
     settle=0.08, time=0.2, frame=0.0025, measure=measure_die, margin=0.002, cell=5e-4, sampled_wall="ledge_a",
-    gas=gas_case('type = "no-slip"', "no-slip", 1e-3),
+    gas=Gas(floor="no-slip", depth="no-slip", series_interval=1e-3),
     quantities={"filled_mass": ("kg", "relative"), "half_time": ("s", "relative"),
                 "ninety_percent_time": ("s", "relative"), "largest_pressure": ("Pa", "relative"),
                 "largest_energy": ("J/kg", "relative")})

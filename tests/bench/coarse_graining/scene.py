@@ -2,9 +2,14 @@
 
 import dataclasses
 import math
+import pathlib
+import sys
 import typing
 
-from laws import LAWS, Material
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+
+import gas_case  # noqa: E402
+from laws import LAWS, Material  # noqa: E402
 
 SEEDS = (15485863, 32452843, 49979687, 67867967, 86028121, 104395301, 122949823)
 
@@ -17,15 +22,23 @@ class Wall:
     stock: str  # what follows the model in fix wall/gran: `primitive type 2 xplane 0.0`, ...
     mesh: str = ""  # `fix mesh/surface` command before it
     gate: bool = False  # taken away when the measured time begins
-    acts_on: str = '"grains"'
+    acts_on: str = "grains"  # or gas; empty: both
 
 
 def plane(name, axis, place, sign, gate=False):
     """A plane across `axis` (0, 1, 2) whose free side is that of `sign`."""
     point, normal = [0.0] * 3, [0] * 3
     point[axis], normal[axis] = place, sign
-    return Wall(name, f"plane = {{point = {point}, normal = {normal}}}",
+    return Wall(name, gas_case.plane(point, normal),
                 f"primitive type 2 {'xyz'[axis]}plane {place}", gate=gate)
+
+
+@dataclasses.dataclass(frozen=True)
+class Gas:
+    """Air in the box of a scene, no-slip at its left and right, open above."""
+    floor: str  # condition
+    depth: str  # condition in front and back
+    series_interval: float  # s
 
 
 @dataclasses.dataclass(frozen=True)
@@ -70,7 +83,7 @@ class Scene:
     frame: float  # s between frames
     measure: typing.Callable  # (frames, scene, case, directory) -> {quantity: value}
     quantities: dict  # name -> (unit, "relative" or "absolute": how deviations count)
-    gas: str = ""  # case file with {fields}; empty: dry
+    gas: Gas | None = None
     cell: float = 0.0  # m
     sampled_wall: str = ""  # of the factor `spacing`
     margin: float = 0.0  # of the box beyond lower and upper, m
@@ -148,7 +161,7 @@ run {round(self.time / self.frame) * per_frame}
         """Bodies, and the gas where there is one."""
         text = ""
         for wall in self.walls:
-            text += f'[[body]]\nname = "{wall.name}"\nacts_on = [{wall.acts_on}]\n{wall.body}\n'
+            text += gas_case.body(wall.name, wall.body, wall.acts_on)
             if case.factor == "spacing" and wall.name == self.sampled_wall:
                 spacing = float(case.value) * case.l * self.material.diameter / 2
                 margin = 8 * spacing
@@ -164,5 +177,9 @@ run {round(self.time / self.frame) * per_frame}
         cells = [max(1, round((b - a) / cell)) for a, b in zip(self.lower, self.upper)]
         coupling = {"interval": "exchange_interval", "kernel": "kernel_width"}.get(case.factor)
         line = f"{coupling} = {case.value}\n" if coupling else ""
-        return text + self.gas.format(lower=list(self.lower), upper=list(self.upper), cells=cells,
-                                      coupling=line)
+        return (text + gas_case.gas_case(self.upper, cells, lower=self.lower, x="no-slip",
+                                         y=self.gas.depth, below=self.gas.floor,
+                                         gravity=(0, 0, -9.81))
+                + "[numerics]\npressure_tolerance = 1e-5\n"
+                f"[coupling]\nseries_interval = {self.gas.series_interval:g}\n{line}"
+                "[output]\ninterval = 1.0\n")

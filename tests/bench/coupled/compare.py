@@ -21,32 +21,13 @@ import statistics
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "dem"))
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent / "dem"), str(HERE.parents[1])]
 import scene as scenes  # noqa: E402  (the bench of the grains alone)
+from gas_case import gas_case, inlet  # noqa: E402
 from settled_bed import read_bed, settled  # noqa: E402
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-GAS = """
-[grid]
-lower = [0, 0, 0]
-upper = [0.05, 0.01, 0.2]
-cells = [40, 8, 160]
-[gas]
-density = 1.2
-viscosity = 1.8e-5
-gravity = [0, 0, -9.81]
-[boundary]
-x_lower = {type = "slip"}
-x_upper = {type = "slip"}
-y_lower = {type = "slip"}
-y_upper = {type = "slip"}
-z_lower = {type = "inlet", superficial_velocity = 0.2}
-z_upper = {type = "outlet", pressure = 0}
-[coupling]
-exchange_interval = 1e-4
-"""
-
-
+ROOT = HERE.parents[2]
 SCENE = scenes.Scene()
 
 
@@ -78,7 +59,8 @@ def main():
         directory = pathlib.Path(name)
         places = {name: scenes.data_file(SCENE, bed, "C") for name, bed in beds.items()}
         (directory / "case.toml").write_text(
-            GAS + SCENE.case_file().replace("\nplane", '\nacts_on = ["grains"]\nplane'))
+            gas_case(SCENE.upper, (40, 8, 160), gravity=(0, 0, -9.81), below=inlet(0.2))
+            + "[coupling]\nexchange_interval = 1e-4\n" + SCENE.case_file().replace("\nplane", '\nacts_on = ["grains"]\nplane'))
         for _ in range(given.repeats):
             for program in samples:
                 (directory / "grains.data").write_text(places[program])

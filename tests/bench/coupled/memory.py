@@ -11,13 +11,17 @@ what counts. Four minutes on two busy cores.
 
 import argparse
 import math
-import os
 import pathlib
 import re
 import resource
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+
+from gas_case import body, gas_case, inlet, plane  # noqa: E402
+from mpi_environment import patient_environment  # noqa: E402
 
 DIAMETER, SPACING = 5e-4, 5.02e-4  # m
 WIDTH, DEPTH = 0.1, 0.05  # m
@@ -54,29 +58,6 @@ thermo 1000000
 run {steps}
 """
 
-CASE = """[grid]
-lower = [0, 0, 0]
-upper = [{width}, {depth}, {top}]
-cells = {cells}
-[gas]
-density = 1.2
-viscosity = 1.8e-5
-gravity = [0, 0, -9.81]
-[boundary]
-x_lower = {{type = "slip"}}
-x_upper = {{type = "slip"}}
-y_lower = {{type = "slip"}}
-y_upper = {{type = "slip"}}
-z_lower = {{type = "inlet", superficial_velocity = 0.2}}
-z_upper = {{type = "outlet"}}
-[[body]]
-name = "floor"
-acts_on = ["grains"]
-plane = {{point = [0, 0, 0], normal = [0, 0, 1]}}
-[coupling]
-exchange_interval = {interval}
-"""
-
 WORD = "LARGEST_RESIDENT_KIB"
 
 
@@ -104,24 +85,25 @@ def write_case(directory, given):
     cells = [round(WIDTH / CELL), round(DEPTH / CELL), math.ceil(1.5 * layers * SPACING / CELL)]
     scene = {"width": WIDTH, "depth": DEPTH, "top": cells[2] * CELL, "spacing": SPACING,
              "half": SPACING / 2, "bed": (layers + 0.25) * SPACING, "step": STEP,
-             "steps": 2 * given.exchanges, "interval": 2 * STEP, "cells": cells}
+             "steps": 2 * given.exchanges}
     (directory / "scene.in").write_text(SCRIPT.format(**scene))
-    (directory / "case.toml").write_text(CASE.format(**scene))
+    (directory / "case.toml").write_text(
+        gas_case((WIDTH, DEPTH, scene["top"]), cells, gravity=(0, 0, -9.81), below=inlet(0.2))
+        + body("floor", plane((0, 0, 0), (0, 0, 1)), acts_on="grains")
+        + f"[coupling]\nexchange_interval = {2 * STEP}\n")
     return cells
 
 
 def main():
     given = options()
-    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1",
-                   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
-                   "OMPI_MCA_hwloc_base_binding_policy": "none", "OMP_NUM_THREADS": "1"}
     with tempfile.TemporaryDirectory(prefix="gasgrain-memory-") as name:
         directory = pathlib.Path(name)
         cells = write_case(directory, given)
         done = subprocess.run(
             ["mpiexec", "--oversubscribe", "-n", str(given.ranks), sys.executable, "-B", __file__,
              "--be-rank", str((given.build / "bin" / "gasgrain").resolve()), "-in", "scene.in",
-             "-log", "log"], cwd=directory, env=environment, text=True, stdout=subprocess.PIPE)
+             "-log", "log"], cwd=directory, env=patient_environment(), text=True,
+            stdout=subprocess.PIPE)
         log = (directory / "log").read_text(errors="replace")
         if done.returncode != 0:
             sys.exit(f"ERROR: exit code {done.returncode}\n" + log[-2000:])

@@ -9,11 +9,16 @@ k = k_t = 6250 N/m, e = 0.9, mu = 0.3, steps of 1e-6 s (an eleventh of the conta
 
 import dataclasses
 import math
-import os
+import pathlib
 import random
 import re
 import subprocess
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+
+from gas_case import body, plane  # noqa: E402
+from mpi_environment import mpi_environment  # noqa: E402
 
 DENSITY = 2500.0  # kg/m^3
 K, E, MU, STEP = 6250.0, 0.9, 0.3, 1e-6  # N/m, -, -, s
@@ -67,7 +72,7 @@ class Scene:
         for name, d, place, sign in self.planes():
             point, normal = [0.0] * 3, [0] * 3
             point[d], normal[d] = place, sign
-            text += f'[[body]]\nname = "{name}"\nplane = {{point = {point}, normal = {normal}}}\n'
+            text += body(name, plane(point, normal))
         if self.with_tubes:
             members = "".join(f"  {{cylinder = {{point = [{x}, 0, {z}], axis = [0, 1, 0], "
                               f"radius = {radius}}}}},\n" for x, z, radius in self.tubes())
@@ -240,11 +245,8 @@ sys.exit(code)
 
 def run(command, directory, script_text):
     (directory / "in.script").write_text(script_text)
-    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1",
-                   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                   "OMPI_MCA_hwloc_base_binding_policy": "none", "OMP_NUM_THREADS": "1"}
     done = subprocess.run([sys.executable, "-c", LAUNCHER, *command, "-in", "in.script", "-log",
-                           "none"], cwd=directory, env=environment, stdin=subprocess.DEVNULL,
+                           "none"], cwd=directory, env=mpi_environment(), stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     text = done.stdout
     times = re.findall(r"Loop time of (\S+) on", text)

@@ -13,9 +13,13 @@ working directory). --quick leaves out everything above 51 200 cells and takes
 
 import argparse
 import json
-import os
 import pathlib
 import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+
+from mpi_environment import mpi_environment  # noqa: E402
 
 VESSEL = {51200: (40, 8, 160), 409600: (80, 16, 320), 1045000: (109, 22, 436),
           4023000: (172, 34, 688)}
@@ -36,11 +40,8 @@ class Bench:
         count = cells[0] * cells[1] * cells[2]
         steps = steps or max(5, min(self.most_steps, 4_000_000 // count))
         start = ["mpirun", "--oversubscribe", "-n", str(ranks)]
-        environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1",
-                       "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                       "OMPI_MCA_hwloc_base_binding_policy": "none", "OMP_NUM_THREADS": "1"}
         command = [*start, self.program, "--cells", *map(str, cells), "--steps", str(steps), *more]
-        done = subprocess.run(command, env=environment, text=True, capture_output=True)
+        done = subprocess.run(command, env=mpi_environment(), text=True, capture_output=True)
         if done.returncode != 0:
             raise SystemExit(f"{' '.join(command)} failed:\n{done.stdout}{done.stderr}")
         result = json.loads(done.stdout.splitlines()[-1])

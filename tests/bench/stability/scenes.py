@@ -12,6 +12,12 @@ The gas has no weight: its density is a matter of inertia and drag here, not of 
 
 import dataclasses
 import math
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+
+from gas_case import body, gas_case, inlet, plane  # noqa: E402
 
 VISCOSITY = 1.8e-5  # Pa s
 GRAIN_DENSITY = 2500.0  # kg/m^3
@@ -126,52 +132,45 @@ def physics(point):
     return Physics(gas_density, velocity, void, limit, interval, step, exchange)
 
 
-def sides(cells):
-    """The lateral boundary conditions of the gas."""
-    kinds = ["periodic" if count > 1 else "slip" for count in cells[:2]]
-    return "\n".join(f'{axis}_{side} = {{type = "{kind}"}}'
-                     for axis, kind in zip("xy", kinds) for side in ("lower", "upper"))
-
-
-def case_file(point):
-    box, what = layout(point), physics(point)
-    lateral, floor = sides(box.cells), f'type = "inlet", superficial_velocity = {what.velocity:.10g}'
-    patch = ""
-    if point.scene == "bed":  # an impulsive start throws light grains up, as it should
-        half = 0.5 * max(RESTING * what.exchange, 5 * what.limit)
-        floor += f", time_table = {{times = [0, {half:g}, 1e6], values = [0, 1, 1]}}"
+def floor_and_patch(point, box, what):
+    """(condition of the lower side, its patch)"""
     if point.scene == "jet":
-        lateral = (lateral.replace('x_lower = {type = "periodic"}', 'x_lower = {type = "no-slip"}')
-                   .replace('x_upper = {type = "periodic"}', 'x_upper = {type = "no-slip"}'))
-        floor = 'type = "no-slip"'
         half = max(1.5 * point.l * point.diameter, 0.51 * box.wide / box.cells[0])
-        patch = f"""[[boundary.patch]]
+        return "no-slip", f"""[[boundary.patch]]
 name = "jet"
 side = "z_lower"
 box = {{lower = [{box.wide / 2 - half:g}, -1, -1], upper = [{box.wide / 2 + half:g}, 1, 1]}}
 type = "inlet"
 superficial_velocity = {what.velocity:g}
 """
-    walls = [("floor", [0, 0, 0], [0, 0, 1])] if point.scene != "plug" else []
+    floor = inlet(what.velocity)
+    if point.scene == "bed":  # an impulsive start throws light grains up, as it should
+        half = 0.5 * max(RESTING * what.exchange, 5 * what.limit)
+        floor += f", time_table = {{times = [0, {half:g}, 1e6], values = [0, 1, 1]}}"
+    return floor, ""
+
+
+def walls(point, box):
+    """Names and planes of the grains' walls."""
+    places = {"floor": plane((0, 0, 0), (0, 0, 1))} if point.scene != "plug" else {}
     if point.scene == "jet":
-        walls += [("left", [0, 0, 0], [1, 0, 0]), ("right", [box.wide, 0, 0], [-1, 0, 0]),
-                  ("lid", [0, 0, box.high], [0, 0, -1])]
-    bodies = "".join(f'[[body]]\nname = "{name}"\nacts_on = ["grains"]\n'
-                     f"plane = {{point = {place}, normal = {normal}}}\n"
-                     for name, place, normal in walls)
+        places |= {"left": plane((0, 0, 0), (1, 0, 0)), "right": plane((box.wide, 0, 0), (-1, 0, 0)),
+                   "lid": plane((0, 0, box.high), (0, 0, -1))}
+    return places
+
+
+def case_file(point):
+    box, what = layout(point), physics(point)
+    floor, patch = floor_and_patch(point, box, what)
+    x, y = ("periodic" if count > 1 else "slip" for count in box.cells[:2])
+    if point.scene == "jet":
+        x = "no-slip" if x == "periodic" else x
+    gas = gas_case((box.wide, box.deep, box.high), box.cells, x=x, y=y, below=floor,
+                   density=what.gas_density, viscosity=VISCOSITY)
+    bodies = "".join(body(name, shape, acts_on="grains")
+                     for name, shape in walls(point, box).items())
     interval = f"exchange_interval = {what.interval:.10g}\n" if what.interval else ""
-    return f"""[grid]
-lower = [0, 0, 0]
-upper = [{box.wide:.10g}, {box.deep:.10g}, {box.high:.10g}]
-cells = {list(box.cells)}
-[gas]
-density = {what.gas_density:.10g}
-viscosity = {VISCOSITY}
-[boundary]
-{lateral}
-z_lower = {{{floor}}}
-z_upper = {{type = "outlet"}}
-{patch}{bodies}[numerics]
+    return f"""{gas}{patch}{bodies}[numerics]
 largest_step = {point.gas_step:g}
 [coupling]
 {interval}series_interval = {what.exchange:.10g}
@@ -245,9 +244,8 @@ def settling(point, box, what):
 
 
 def bed_script(point, box, what):
-    walls = ["floor"] + (["left", "right", "lid"] if point.scene == "jet" else [])
     fixes = "\n".join(f"fix {name} all wall/sdf case case.toml body {name} type 2"
-                      for name in walls)
+                      for name in walls(point, box))
     exchange = round(what.exchange / what.step)
     # long enough for the flow to follow its ramp
     steps = max(RESTING * exchange, round(5 * what.limit / what.step))
