@@ -1,6 +1,5 @@
 """What the examples share: starting gasgrain under MPI, editing a case file, the summary file."""
 
-import argparse
 import fcntl
 import json
 import os
@@ -41,24 +40,11 @@ def binary(name):
     return found
 
 
-def whole_number_from_one(text):
-    """An option's value, checked by argparse."""
-    value = int(text)
-    if value < 1:
-        raise argparse.ArgumentTypeError(f"is {value}, but must be at least 1")
-    return value
-
-
-def add_ranks(parser):
-    parser.add_argument("--ranks", type=whole_number_from_one, default=os.cpu_count(), metavar="N",
-                        help="MPI ranks (default: all cores, here %(default)s)")
-
-
-def add_run_options(parser, name):
-    """Options of an example that runs in one go."""
-    add_ranks(parser)
-    parser.add_argument("--out", default=str(ROOT / "out" / name), metavar="DIR",
-                        help=f"directory for the results (default out/{name})")
+def results_directory(chosen, name):
+    """The directory `chosen`, or out/`name`."""
+    out = pathlib.Path(chosen or ROOT / "out" / name).resolve()
+    out.mkdir(parents=True, exist_ok=True)
+    return out
 
 
 def require_idle(directory):

@@ -110,7 +110,7 @@ def wait(process, hours):
 def run_piece(job, how):
     """Runs to the end, or until a signal or `how.hours` are over: then the program ends with 75.
 
-    `how` holds the options of add_options. A run that is complete already is left as it is.
+    `how` holds the options of options.add_pieces. A run that is complete already is left as it is.
     """
     common.require_idle(job.directory)
     record = read_record(job.directory)
@@ -149,33 +149,6 @@ def run_piece(job, how):
         common.fail(f"gasgrain ended with exit code {code}; see {log}")
 
 
-def add_limits(parser):
-    """Options for how much of the machine a run takes."""
-    common.add_ranks(parser)
-    parser.add_argument("--hours", type=float, default=2.0, metavar="H",
-                        help="stop with a checkpoint after so many hours, exit code 75; the same "
-                             "command goes on (default %(default)g)")
-
-
-def add_options(parser, name):
-    """Options of every example."""
-    add_limits(parser)
-    parser.add_argument("--fresh", action="store_true",
-                        help="begin anew even where a checkpoint or a result is there")
-    parser.add_argument("--no-pictures", action="store_true", help="numbers only")
-    parser.add_argument("--out", default=None, metavar="DIR",
-                        help=f"directory for results and checkpoints (default out/{name})")
-
-
-def require(parser, chosen, lowest):
-    """Ends with an error unless each option is at least, or (0) above, its lowest value."""
-    for name, bound in lowest.items():
-        value = getattr(chosen, name)
-        if not (value >= bound if bound else value > 0):
-            parser.error(f"--{name.replace('_', '-')} is {value:g}, but must be "
-                         + (f"at least {bound:g}" if bound else "positive"))
-
-
 def totals(directory):
     """Run time in s of all pieces, and ranks, machines and commits that took part."""
     pieces = read_record(directory)["pieces"]
@@ -185,8 +158,11 @@ def totals(directory):
             **together}
 
 
-def add_provenance(job, facts):
-    """Adds to summary.json how the result was made: `facts`, machine, run time, steps."""
+def add_provenance(job, chosen, facts):
+    """Adds to summary.json how the result was made: what was chosen, `facts`, machine, run time,
+    steps."""
+    facts = {**facts, "l": chosen.grain, "grains": job.variables["count"],
+             "dem_step": job.variables["dt"], "simulated": chosen.time, "spring": chosen.spring}
     path = job.directory / "summary.json"
     summary = common.read_json(path)
     steps = round(facts["simulated"] / facts["dem_step"])

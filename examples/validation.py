@@ -21,6 +21,7 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 import common  # noqa: E402
+import options  # noqa: E402
 import pieces  # noqa: E402
 
 STORE = common.ROOT / "docs" / "validation"
@@ -212,7 +213,7 @@ def main():
                         help="run the cases there first")
     parser.add_argument("--paper", action="store_true", help="at the paper's size (hours each)")
     parser.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES))
-    pieces.add_limits(parser)
+    options.add_limits(parser)
     chosen = parser.parse_args()
     for directory in chosen.directories + (run_cases(chosen) if chosen.run else []):
         store(directory)

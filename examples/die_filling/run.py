@@ -1,6 +1,5 @@
 """Die filling from a stationary shoe (Mori, Wu, Sakai 2019, cases 2-1, 2-2, 3-1, 3-2)"""
 
-import argparse
 import dataclasses
 import math
 import pathlib
@@ -12,6 +11,7 @@ sys.path.insert(0, str(HERE.parent))
 import analysis  # noqa: E402
 import common  # noqa: E402
 import grains  # noqa: E402
+import options  # noqa: E402
 import pieces  # noqa: E402
 import plot  # noqa: E402
 
@@ -51,45 +51,31 @@ CASES = {
 }
 
 
-def options():
-    parser = argparse.ArgumentParser(prog="examples/run die_filling", description=__doc__)
+def given_options():
+    parser = options.parser_of("die_filling", __doc__)
     parser.add_argument("--case", choices=CASES, default="2-1",
                         help="2-1, 2-2: CP-102, 40 and 120 mm in the shoe; 3-1, 3-2: NONPAREIL "
                              "(default %(default)s)")
     parser.add_argument("--paper", action="store_true",
                         help="grains, spring and 1.25 mm cells as in the paper (hours); else twice"
                              " its l")
-    parser.add_argument("--grain", type=float, metavar="L",
-                        help="coarse-grain ratio l (default: twice the paper's)")
-    parser.add_argument("--spring", type=float, metavar="K",
-                        help="spring constant of the original particle, N/m")
-    parser.add_argument("--cell", type=float, metavar="MM",
-                        help="cell of the gas, mm (default 2.5)")
-    parser.add_argument("--kernel", type=float, metavar="MM",
-                        help="standard deviation of the kernel, mm (default: the larger of 0.8 "
-                             "cells and 1.2 grains)")
-    parser.add_argument("--friction", type=float, default=FRICTION, metavar="MU",
-                        help="coefficient of friction (default %(default)g)")
-    parser.add_argument("--drag", default="gidaspow", metavar="NAME",
-                        help="drag closure (default %(default)s)")
-    parser.add_argument("--time", type=float, metavar="T",
-                        help="simulated time after the gate opened, s (default 0.8 to 1.6, by "
-                             "case)")
-    parser.add_argument("--gas-step", type=float, metavar="S",
-                        help="largest gas step, s (default 1e-4; 5e-5 with --paper)")
-    pieces.add_options(parser, "die_filling_CASE")
+    options.add_grains(parser, ("", "twice the paper's"), ("", "2; 0.5 in cases 3-1 and 3-2"))
+    options.add_number(parser, "--time", "T", "simulated time after the gate opened, s",
+                       "0.8 to 1.6, by case")
+    options.add_number(parser, "--gas-step", "S", "largest gas step, s", "1e-4; 5e-5 with --paper")
+    options.add_number(parser, "--cell", "MM", "cell of the gas, mm", "2.5")
+    options.add_closures(parser, FRICTION)
+    options.add_pieces(parser, "die_filling_CASE")
     chosen = parser.parse_args()
     case = CASES[chosen.case]
     powder = case.powder
-    preset = ((powder.ratio, powder.spring, 1.25, 5e-5) if chosen.paper
-              else (2 * powder.ratio, powder.cheap_spring, 2.5, 1e-4))
-    for name, value in zip(("grain", "spring", "cell", "gas_step"), preset):
-        if getattr(chosen, name) is None:
-            setattr(chosen, name, value)
-    if chosen.time is None:
-        chosen.time = case.time
-    pieces.require(parser, chosen, {"grain": 1, "ranks": 1, "time": 0, "spring": 0, "gas_step": 0,
-                                    "cell": 0, "hours": 0})
+    options.fill_in(chosen, {"time": case.time})
+    options.fill_in(chosen, {"grain": powder.ratio, "spring": powder.spring, "cell": 1.25,
+                             "gas_step": 5e-5} if chosen.paper else
+                    {"grain": 2 * powder.ratio, "spring": powder.cheap_spring, "cell": 2.5,
+                     "gas_step": 1e-4})
+    options.require(parser, chosen, {"grain": 1, "ranks": 1, "time": 0, "spring": 0, "gas_step": 0,
+                                     "cell": 0, "hours": 0})
     if 2 * powder.radius * chosen.grain > 3e-3:
         parser.error(f"--grain is {chosen.grain:g}: grains above 3 mm do not fit a die of 25 mm")
     return chosen
@@ -138,18 +124,14 @@ def make_job(case, chosen, out):
 
 
 def main():
-    chosen = options()
+    chosen = given_options()
     case = CASES[chosen.case]
-    default = common.ROOT / "out" / f"die_filling_{chosen.case}"
-    out = pathlib.Path(chosen.out or default).resolve()
-    out.mkdir(parents=True, exist_ok=True)
+    out = common.results_directory(chosen.out, f"die_filling_{chosen.case}")
     job = make_job(case, chosen, out)
     pieces.run_piece(job, chosen)
     table = analysis.analyse(out, chosen.case)
-    pieces.add_provenance(job, {"case": chosen.case, "l": chosen.grain,
-                                "paper_l": case.powder.ratio, "grains": job.variables["count"],
-                                "dem_step": job.variables["dt"], "simulated": chosen.time,
-                                "gas_cell": 1e-3 * chosen.cell, "spring": chosen.spring})
+    pieces.add_provenance(job, chosen, {"case": chosen.case, "paper_l": case.powder.ratio,
+                                        "gas_cell": 1e-3 * chosen.cell})
     analysis.print_comparison(common.read_summary(out))
     if chosen.no_pictures:
         return

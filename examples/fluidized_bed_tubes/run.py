@@ -1,6 +1,5 @@
 """Fluidized bed with four inserted tubes (Mori, Wu, Sakai 2019, cases 1-1 and 1-2)"""
 
-import argparse
 import pathlib
 import sys
 
@@ -9,6 +8,7 @@ sys.path.insert(0, str(HERE.parent))
 
 import common  # noqa: E402
 import grains  # noqa: E402
+import options  # noqa: E402
 import pieces  # noqa: E402
 import plot  # noqa: E402
 
@@ -48,49 +48,33 @@ def print_comparison(quantities):
     print("  (bed height: experiment of the paper; pressure drop: static estimate with buried tubes)")
 
 
-def options():
-    parser = argparse.ArgumentParser(prog="examples/run fluidized_bed_tubes", description=__doc__)
+def given_options():
+    parser = options.parser_of("fluidized_bed_tubes", __doc__)
     parser.add_argument("--paper", action="store_true",
                         help="the paper's grains and spring, 1 s + 2 s: --grain 5 --spring 50 --time 3 "
                              "--start-up 1 unless stated (hours)")
-    parser.add_argument("--grain", type=float, metavar="L",
-                        help="coarse-grain ratio l; the paper takes 5 (default 10)")
-    parser.add_argument("--velocity", type=float, default=0.2, metavar="U",
-                        help="superficial gas velocity, m/s; the paper takes 0.2 and 0.3 (default "
-                             "%(default)g)")
-    parser.add_argument("--time", type=float, metavar="T",
-                        help="simulated time with gas, s (default 0.8)")
-    parser.add_argument("--start-up", type=float, metavar="T",
-                        help="time that the means leave out, s (default 0.3)")
-    parser.add_argument("--spring", type=float, metavar="K",
-                        help="spring constant of the original particle, N/m; the paper takes 50 "
-                             "(default 0.25)")
-    parser.add_argument("--friction", type=float, default=0.3, metavar="MU",
-                        help="coefficient of friction (default %(default)g)")
-    parser.add_argument("--gas-step", type=float, default=1e-4, metavar="S",
-                        help="largest gas step, s (default %(default)g)")
-    parser.add_argument("--cell", type=float, default=1.25, metavar="MM",
-                        help="cell of the gas, mm (default %(default)g)")
-    parser.add_argument("--kernel", type=float, metavar="MM",
-                        help="standard deviation of the kernel, mm (default: the larger of 0.8 "
-                             "cells and 1.2 grains)")
-    parser.add_argument("--drag", default="gidaspow", metavar="NAME",
-                        help="drag closure (default %(default)s)")
-    parser.add_argument("--tubes", type=float, nargs=4, default=(15, 35, 20, 40), metavar=("X1", "X2", "Z1", "Z2"),
+    options.add_grains(parser, ("; the paper takes 5", "10"), ("; the paper takes 50", "0.25"))
+    options.add_number(parser, "--velocity", "U",
+                       "superficial gas velocity, m/s; the paper takes 0.2 and 0.3", 0.2)
+    options.add_number(parser, "--time", "T", "simulated time with gas, s", "0.8")
+    options.add_start_up(parser, "0.3")
+    options.add_number(parser, "--gas-step", "S", "largest gas step, s", 1e-4)
+    options.add_number(parser, "--cell", "MM", "cell of the gas, mm", 1.25)
+    options.add_closures(parser, 0.3)
+    parser.add_argument("--tubes", type=float, nargs=4, default=(15, 35, 20, 40),
+                        metavar=("X1", "X2", "Z1", "Z2"),
                         help="axes of the four tubes, mm; the paper does not print them (default "
                              "15 35 20 40)")
-    pieces.add_options(parser, "fluidized_bed_tubes")
+    options.add_pieces(parser, "fluidized_bed_tubes")
     chosen = parser.parse_args()
-    preset = (5.0, 50.0, 3.0, 1.0) if chosen.paper else (10.0, 0.25, 0.8, 0.3)
-    for name, value in zip(("grain", "spring", "time", "start_up"), preset):
-        if getattr(chosen, name) is None:
-            setattr(chosen, name, value)
-    pieces.require(parser, chosen, {"grain": 1, "ranks": 1, "time": 0, "spring": 0, "gas_step": 0,
-                                    "cell": 0, "hours": 0, "velocity": 0})
+    options.fill_in(chosen, {"grain": 5.0, "spring": 50.0, "time": 3.0, "start_up": 1.0}
+                    if chosen.paper else
+                    {"grain": 10.0, "spring": 0.25, "time": 0.8, "start_up": 0.3})
+    options.require(parser, chosen, {"grain": 1, "ranks": 1, "time": 0, "spring": 0, "gas_step": 0,
+                                     "cell": 0, "hours": 0, "velocity": 0})
+    options.require_start_up(parser, chosen)
     if chosen.grain > 25:
         parser.error(f"--grain is {chosen.grain:g}: grains above 2.5 mm (l = 25) do not fit between tubes and walls")
-    if not 0 <= chosen.start_up < chosen.time:
-        parser.error(f"--start-up is {chosen.start_up:g}, but must lie in [0, {chosen.time:g}), the simulated time")
     return chosen
 
 
@@ -140,17 +124,14 @@ def make_job(chosen, out):
 
 
 def main():
-    chosen = options()
-    out = pathlib.Path(chosen.out or common.ROOT / "out" / "fluidized_bed_tubes").resolve()
-    out.mkdir(parents=True, exist_ok=True)
+    chosen = given_options()
+    out = common.results_directory(chosen.out, "fluidized_bed_tubes")
     job = make_job(chosen, out)
     pieces.run_piece(job, chosen)
     quantities = common.complete_summary(
         out, lambda summary: add_experiment(summary, chosen.velocity))
-    pieces.add_provenance(job, {"case": CASES.get(chosen.velocity, "1"), "l": chosen.grain,
-                                "paper_l": 5, "grains": job.variables["count"],
-                                "dem_step": job.variables["dt"], "simulated": chosen.time,
-                                "gas_cell": 1e-3 * chosen.cell, "spring": chosen.spring})
+    pieces.add_provenance(job, chosen, {"case": CASES.get(chosen.velocity, "1"), "paper_l": 5,
+                                        "gas_cell": 1e-3 * chosen.cell})
     print_comparison(quantities)
     if chosen.no_pictures:
         return

@@ -1,6 +1,5 @@
 """Discharge of a conical hopper against Beverloo's law"""
 
-import argparse
 import math
 import pathlib
 import sys
@@ -11,6 +10,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
 import common  # noqa: E402
+import options  # noqa: E402
 import plot  # noqa: E402
 import text_dump  # noqa: E402
 
@@ -31,13 +31,12 @@ def beverloo(bulk_density):
     return flat * SLOPE**-0.35
 
 
-def options():
-    parser = argparse.ArgumentParser(prog="examples/run hopper", description=__doc__)
-    parser.add_argument("--grains", type=int, default=14000, metavar="N",
-                        help="number of grains of 2 mm (default %(default)s)")
-    parser.add_argument("--time", type=float, default=1.9, metavar="T",
-                        help=f"simulated time, s; the gate opens at {OPENING} s (default %(default)g)")
-    common.add_run_options(parser, "hopper")
+def given_options():
+    parser = options.parser_of("hopper", __doc__)
+    options.add_count(parser, 14000)
+    options.add_number(parser, "--time", "T",
+                       f"simulated time, s; the gate opens at {OPENING} s", 1.9)
+    options.add_run(parser, "hopper")
     chosen = parser.parse_args()
     if not 12000 <= chosen.grains <= 20000:
         parser.error(f"--grains is {chosen.grains}, but must be 12000 to 20000: fewer do not fill the "
@@ -73,7 +72,7 @@ def summary(series, at_rest):
 
 
 def main():
-    chosen = options()
+    chosen = given_options()
     out = common.fresh_directory(chosen.out)
     print("Discharge of a conical hopper of 60 mm with an outlet of 14 mm")
     print(f"  grains         {chosen.grains} of {1e3 * DIAMETER:g} mm")

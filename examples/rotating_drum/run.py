@@ -1,6 +1,5 @@
 """Rotating drum with lifters from an STL file, torque and mixing measured"""
 
-import argparse
 import math
 import pathlib
 import subprocess
@@ -14,6 +13,7 @@ sys.path.insert(0, str(HERE.parent))
 import common  # noqa: E402
 import drum_stl  # noqa: E402
 import mixing  # noqa: E402
+import options  # noqa: E402
 import plot  # noqa: E402
 import text_dump  # noqa: E402
 
@@ -23,15 +23,13 @@ START = 0.3  # s: the drum begins to turn
 AVERAGE_FROM = 0.8  # s: the grains have found their slope
 
 
-def options():
-    parser = argparse.ArgumentParser(prog="examples/run rotating_drum", description=__doc__)
-    parser.add_argument("--grains", type=int, default=6000, metavar="N",
-                        help="number of grains of 2 mm (default %(default)s)")
-    parser.add_argument("--speed", type=float, default=60, metavar="RPM",
-                        help="revolutions per minute (default %(default)g)")
-    parser.add_argument("--time", type=float, default=2.3, metavar="T",
-                        help=f"simulated time, s; the drum turns from {START} s on (default %(default)g)")
-    common.add_run_options(parser, "rotating_drum")
+def given_options():
+    parser = options.parser_of("rotating_drum", __doc__)
+    options.add_count(parser, 6000)
+    options.add_number(parser, "--speed", "RPM", "revolutions per minute", 60)
+    options.add_number(parser, "--time", "T",
+                       f"simulated time, s; the drum turns from {START} s on", 2.3)
+    options.add_run(parser, "rotating_drum")
     chosen = parser.parse_args()
     if not 1 <= chosen.grains <= 9000:
         parser.error(f"--grains is {chosen.grains}, but must be 1 to 9000: more do not fit loosely")
@@ -70,7 +68,7 @@ def summary(series, indices):
 
 
 def main():
-    chosen = options()
+    chosen = given_options()
     out = common.fresh_directory(chosen.out)
     rate = 2 * math.pi * chosen.speed / 60
     print("Rotating drum with lifters, walls from an STL file")

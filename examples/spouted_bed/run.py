@@ -1,6 +1,5 @@
 """Flat-bottomed spouted bed with a central jet: spout, fountain and annulus"""
 
-import argparse
 import math
 import pathlib
 import sys
@@ -11,6 +10,7 @@ sys.path.insert(0, str(HERE.parent))
 import analysis  # noqa: E402
 import common  # noqa: E402
 import grains  # noqa: E402
+import options  # noqa: E402
 import pieces  # noqa: E402
 import plot  # noqa: E402
 
@@ -25,31 +25,23 @@ EXCHANGE = 2e-4  # s
 SPOUTING = 2 / math.pi
 
 
-def options():
-    parser = argparse.ArgumentParser(prog="examples/run spouted_bed", description=__doc__)
-    parser.add_argument("--grain", type=float, default=2.0, metavar="L",
-                        help="coarse-grain ratio l, originals are beads of 1 mm (default %(default)g)")
-    parser.add_argument("--jet", type=float, default=10.0, metavar="U",
-                        help="velocity of the jet in its slot of 12 mm, m/s (default %(default)g)")
-    parser.add_argument("--aeration", type=float, default=0.25, metavar="U",
-                        help="superficial velocity through the rest of the floor, m/s (default "
-                             "%(default)g)")
-    parser.add_argument("--time", type=float, default=1.6, metavar="T",
-                        help="simulated time with gas, s (default %(default)g)")
-    parser.add_argument("--start-up", type=float, default=0.6, metavar="T",
-                        help="time that the means leave out, s (default %(default)g)")
-    parser.add_argument("--spring", type=float, default=100.0, metavar="K",
-                        help="spring constant of the original particle, N/m (default %(default)g)")
-    pieces.add_options(parser, "spouted_bed")
+def given_options():
+    parser = options.parser_of("spouted_bed", __doc__)
+    options.add_grains(parser, (", originals are beads of 1 mm", 2.0), ("", 100.0))
+    options.add_number(parser, "--jet", "U", "velocity of the jet in its slot of 12 mm, m/s", 10.0)
+    options.add_number(parser, "--aeration", "U",
+                       "superficial velocity through the rest of the floor, m/s", 0.25)
+    options.add_number(parser, "--time", "T", "simulated time with gas, s", 1.6)
+    options.add_start_up(parser, 0.6)
+    options.add_pieces(parser, "spouted_bed")
     chosen = parser.parse_args()
-    pieces.require(parser, chosen, {"grain": 1, "ranks": 1, "time": 0, "spring": 0, "jet": 0,
-                                    "hours": 0})
+    options.require(parser, chosen, {"grain": 1, "ranks": 1, "time": 0, "spring": 0, "jet": 0,
+                                     "hours": 0})
+    options.require_start_up(parser, chosen)
     if chosen.grain > 3:
         parser.error(f"--grain is {chosen.grain:g}: grains above 3 mm do not fit a depth of 12 mm")
     if chosen.aeration < 0:
         parser.error(f"--aeration is {chosen.aeration:g}, but must not be negative")
-    if not 0 <= chosen.start_up < chosen.time:
-        parser.error(f"--start-up is {chosen.start_up:g}, but must lie in [0, {chosen.time:g}), the simulated time")
     return chosen
 
 
@@ -108,17 +100,13 @@ def add_measured(out, result):
 
 
 def main():
-    chosen = options()
-    out = pathlib.Path(chosen.out or common.ROOT / "out" / "spouted_bed").resolve()
-    out.mkdir(parents=True, exist_ok=True)
+    chosen = given_options()
+    out = common.results_directory(chosen.out, "spouted_bed")
     job = make_job(chosen, out)
     pieces.run_piece(job, chosen)
     result = analysis.analyse(out, chosen.start_up)
     quantities = add_measured(out, result)
-    pieces.add_provenance(job, {"case": "spouted_bed", "l": chosen.grain,
-                                "grains": job.variables["count"],
-                                "dem_step": job.variables["dt"], "simulated": chosen.time,
-                                "spring": chosen.spring})
+    pieces.add_provenance(job, chosen, {"case": "spouted_bed"})
     common.print_quantities(quantities)
     if chosen.no_pictures:
         return
