@@ -71,9 +71,10 @@ def draw_upper_edge(axes, table):
 
 
 def snapshot_times(table):
-    """Times of the pictures, s: the start, the splash or half of the filling, a little after it."""
-    end = min(table["time"][-1], analysis.time_full(table) + 0.1)
+    """Times of the pictures, s: the start, the splash or half of the filling, a little after the
+    last splash and the full die."""
     found = analysis.splashes(table["time"], table["upper_edge"])
+    end = min(table["time"][-1], max(found + [analysis.time_full(table)]) + 0.1)
     middle = found[0] if found else 0.6 * end
     return numpy.interp([0, 1, 2, 3, 4], [0, 3, 4], [0, middle, end])
 
