@@ -1,5 +1,6 @@
 #include "cfd/face_medium.hpp"
 
+#include "cfd/felt_gradient.hpp"
 #include "cfd/gas_solver.hpp"
 #include "cfd/ghost_values.hpp"
 #include "cfd/halo_exchange.hpp"
@@ -64,22 +65,30 @@ void set_weights(FaceMedium& medium, const GasDomain& domain, int d) {
   });
 }
 
+// Void fraction of the faces of direction d from that of the cells.
+void set_faces(Field& faces, const FaceMedium& medium, const Field& cells, int d,
+               const IndexBox& part) {
+  const std::ptrdiff_t s = cells.stride(d);
+  const double *below = medium.weight_below[d].data(), *above = medium.weight_above[d].data();
+  const double* eps = cells.data();
+  double* face_eps = faces.data();
+  for_box(part, cells, [=](std::ptrdiff_t n) {
+    const double mean = below[n] * eps[n - s] + above[n] * eps[n];
+    face_eps[n] = below[n] + above[n] > 0.0 ? mean : 0.5 * (eps[n - s] + eps[n]);
+  });
+}
+
 // Void fraction and drag of the faces of direction d from those of the cells.
 void update_faces(FaceMedium& medium, const GasDomain& domain, const GrainPhase& grains, int d) {
   const Field& like = medium.cell_void_fraction;
   const std::ptrdiff_t s = like.stride(d);
   const double *below = medium.weight_below[d].data(), *above = medium.weight_above[d].data();
-  const double* eps = like.data();
   const double* b = grains.momentum_exchange.data();
   const double* bv = grains.exchange_momentum[d].data();
-  double* face_eps = medium.void_fraction[d].data();
   double* face_b = medium.momentum_exchange[d].data();
   double* face_bv = medium.exchange_momentum[d].data();
   for_each_part(faces_between_cells(domain, d), [&](const IndexBox& part) {
-    for_box(part, like, [=](std::ptrdiff_t n) {
-      const double mean = below[n] * eps[n - s] + above[n] * eps[n];
-      face_eps[n] = below[n] + above[n] > 0.0 ? mean : 0.5 * (eps[n - s] + eps[n]);
-    });
+    set_faces(medium.void_fraction[d], medium, like, d, part);
     for_box(intersection(part, all_faces(domain, d)), like, [=](std::ptrdiff_t n) {
       face_b[n] = below[n] * b[n - s] + above[n] * b[n];
       face_bv[n] = below[n] * bv[n - s] + above[n] * bv[n];
@@ -130,6 +139,7 @@ void find_walls(FaceMedium& medium, const GasDomain& domain) {
 void update(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains) {
   const bool had_grains = medium.has_grains;
   medium.has_grains = any_grains(domain, grains);
+  medium.lag = medium.has_grains ? lag_of(grains.density_ratio) : 0.0;
   if (!medium.has_grains) {
     if (had_grains) medium.cell_void_fraction.fill(1.0);
     return;
@@ -150,6 +160,21 @@ void update(FaceMedium& medium, const GasDomain& domain, GrainPhase& grains) {
   }
   if (domain.any_lenders) fill_ghosts(domain.decomposition, medium.void_fraction);
   if (domain.walls.has_bodies) fill_ghosts(domain.decomposition, medium.momentum_exchange);
+}
+
+void divide_interval(FaceMedium& medium, const GasDomain& domain, const Field& end) {
+  Field cells(domain.size());
+  set_cell_void_fraction(cells, domain, end);
+  fill_scalar_ghosts(domain, cells);
+  for (int d = 0; d < 3; ++d) {
+    Field& faces = medium.coming_void_fraction[d];
+    if (faces.count() == 0) faces = Field(domain.size(), 1.0);
+    with_lenders_joined(medium.lent[0], cells, domain, d, [&] {
+      set_faces(faces, medium, cells, d, faces_between_cells(domain, d));
+    });
+  }
+  if (domain.any_lenders) fill_ghosts(domain.decomposition, medium.coming_void_fraction);
+  medium.is_divided = true;
 }
 
 }  // namespace gasgrain::cfd

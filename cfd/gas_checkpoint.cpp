@@ -17,7 +17,7 @@ namespace gasgrain::cfd {
 namespace {
 
 constexpr const char* format = "gasgrain gas checkpoint";
-constexpr std::int32_t version = 3;
+constexpr std::int32_t version = 4;
 constexpr double same_fraction = 1e-9;  // of a cell; other ranks round alike
 
 const std::vector<std::string> fixed_sections{"grid.", "gas.", "body[", "fixed_bed."};

@@ -74,18 +74,21 @@ void GasSolver::State::sample(VectorField& velocity_at_cells, VectorField& gradi
 }
 
 void GasSolver::sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const {
-  state_->sample(velocity, pressure_gradient, state_->velocity,
-                 state_->projection.pressure_gradient());
+  state_->sample(velocity, pressure_gradient, state_->velocity, state_->felt_gradient());
 }
 
-void GasSolver::start_means() {
-  state_->means.start(state_->domain.size());
+void GasSolver::start_means(const Field& void_fraction_at_end) {
+  State& s = *state_;
+  divide_interval(s.medium, s.domain, void_fraction_at_end);
+  s.means.start(s.domain.size());
 }
 
 void GasSolver::sample_means_at_cells(VectorField& velocity, VectorField& pressure_gradient) {
-  IntervalMeans& means = state_->means;
-  means.finish(state_->medium);
-  state_->sample(velocity, pressure_gradient, means.velocity(), means.pressure_gradient());
+  State& s = *state_;
+  s.means.finish();
+  s.medium.is_divided = false;
+  if (s.medium.lag > 0.0) s.felt.finish_interval(s.means.pressure_gradient());
+  s.sample(velocity, pressure_gradient, s.means.velocity(), s.means.pressure_gradient());
 }
 
 double GasSolver::side_pressure(int direction, int side) const {

@@ -16,6 +16,9 @@
 //                          c = eps dt/(rho (1 + K))
 //   5  u = u* - (c/eps) grad p
 //
+// Light grains feel the pressure gradient with a lag, and in an interval of several steps grains
+// share in it by the void fraction at its end: felt_gradient.cpp adds to 2 and changes c.
+//
 // With viscosity = implicit the stress of the bracket is taken at the end of the step, together
 // with step 3 (implicit_viscosity.cpp). With time_scheme = rk2 (Heun) steps 1 to 5 are taken twice
 // from u_n: first with the bracket of u_n alone, then with the mean of that and the bracket of what
@@ -173,6 +176,7 @@ void GasSolver::State::take_stage(StepReport& report, PassClock& clock, double d
   const double magnitudes = implicit_viscosity ? predict_implicitly(report, dt, weights)
                                                : predict(dt, weights, slope.total, old_slope.total);
   check_finite(magnitudes, dt);
+  if (medium.lag > 0.0) felt.add_held(velocity, medium, driving.value(), dt);
   clock.finish(report.times, Pass::predict);
   if (domain.has_motion) set_solid_faces(velocity, domain);  // else they have what they had
   fill_velocity_ghosts(domain, medium, velocity);
@@ -231,6 +235,15 @@ Vec3 GasSolver::State::implicit_viscous_impulse(double dt) const {
                stress_weights.before * old_slope.viscous);
 }
 
+// The grains' share of the pressure is what they feel.
+void GasSolver::State::observe_felt_gradient(MomentumBudget& budget, double dt) {
+  if (medium.lag > 0.0) felt.observe(medium, projection.pressure_gradient());
+  const Vec3 kept =
+      dt * kept_force(domain, medium, projection.pressure_gradient(), felt_gradient());
+  budget.pressure -= kept;
+  budget.pressure_on_grains += kept;
+}
+
 // `magnitudes` is the sum of |u| on this rank's faces, `speeds` those of the last step.
 void GasSolver::State::check_finite(double magnitudes, double dt) const {
   if (std::isfinite(sum_over_ranks(domain.decomposition, magnitudes))) return;
@@ -262,6 +275,7 @@ StepReport GasSolver::advance(double dt) {
   const Vec3 momentum_before = momentum_at_start - s.momentum_of_moved_walls;
   s.momentum_of_moved_walls = Vec3::Zero();
   update(s.medium, domain, s.grains);
+  if (s.medium.lag == 0.0) s.felt.forget();
   const bool any_grains = had_grains || s.medium.has_grains;
   const Field* const old_void_fraction = any_grains ? &s.old_void_fraction : nullptr;
   const Vec3 momentum_with_new_void =
@@ -302,12 +316,17 @@ StepReport GasSolver::advance(double dt) {
   if (domain.walls.has_bodies) s.measure_loads(budget, dt, weights);
   s.momentum =
       add_forces(budget, domain, s.medium, s.velocity, s.projection.pressure_gradient(), dt);
+  if (s.medium.shares_apart()) s.observe_felt_gradient(budget, dt);
   budget.stored = *s.momentum - momentum_before;
   add_pressure_reactions(budget, domain, s.uneven_cells, s.pressure,
                          s.projection.pressure_gradient(), s.driving.value(), dt);
   sum_over_ranks(domain.decomposition, budget);
   clock.finish(report.times, Pass::budget);
-  if (s.means.started()) s.means.add(s.medium, s.velocity, s.projection.pressure_gradient(), dt);
+  if (s.means.started()) {
+    s.means.add(s.velocity, s.felt_gradient(), dt);
+  } else if (s.medium.lag > 0.0) {
+    s.felt.finish_interval(s.felt.value());
+  }
   return report;
 }
 

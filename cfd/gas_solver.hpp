@@ -27,6 +27,10 @@ struct GrainPhase {
   Field void_fraction;      // eps at the end of the coming step, in (0, 1]
   Field momentum_exchange;  // B, kg m^-3 s^-1: sum over grains of weight * coefficient / volume
   VectorField exchange_momentum;  // B v, kg m^-2 s^-2: the same with the grains' velocities (cells)
+  // Density of the gas over that of the lightest grains, -; from 0.01 on the force of the displaced
+  // gas is made implicit (cfd/felt_gradient.cpp). A new interval of the grains' motion begins at
+  // every step, or at start_means() when it has several.
+  double density_ratio = 0.0;
 };
 
 // Momentum that entered the gas during the last advance(), by cause; N s, summed over all ranks.
@@ -120,14 +124,15 @@ class GasSolver {
   const Field& pressure() const;        // p in cells, Pa
   const Field& void_fraction() const;   // eps in cells, ghosts filled
 
-  // Gas as the grains of a cell see it: sum of lower_share and upper_share times the face value.
-  // The transpose of the way B, B v and the solid volume reach the faces, so that a grain and the
-  // gas exchange opposite forces. In directions without a free face: the wall's velocity and 0.
-  // Ghosts are filled as by fill_ghosts.
+  // Gas as the grains of a cell see it, with the pressure gradient that they feel: sum of
+  // lower_share and upper_share times the face value. The transpose of the way B, B v and the solid
+  // volume reach the faces, so that a grain and the gas exchange opposite forces. In directions
+  // without a free face: the wall's velocity and 0. Ghosts are filled as by fill_ghosts.
   void sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const;
-  // The same for an interval of several steps: start_means(), the steps, sample_means_at_cells().
-  // See cfd/interval_means.hpp.
-  void start_means();
+  // The same for an interval of several steps: start_means() with the cells' void fraction at the
+  // end of the last step, the steps, sample_means_at_cells(): means over the steps, and the force
+  // on grains in their last places is what the gas has felt (cfd/felt_gradient.cpp).
+  void start_means(const Field& void_fraction_at_end);
   void sample_means_at_cells(VectorField& velocity, VectorField& pressure_gradient);
 
   // Mean pressure over the open area of a side of the grid that is not periodic, Pa, extrapolated

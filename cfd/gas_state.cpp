@@ -35,6 +35,7 @@ GasSolver::State::State(const GasCase& given, MPI_Comm communicator)
       uneven_cells(find_uneven_cells(domain)),
       projection(domain, given.numerics),
       driving(domain),
+      felt(domain),
       velocity(fields(domain.size())),
       pressure(domain.size()),
       slope_evaluation(domain, given.numerics.convection) {
@@ -151,6 +152,8 @@ void GasSolver::State::visit_grains(StateArchive& archive) {
   for (int d = 0; d < 3; ++d) {
     archive.cells(std::string("exchange_momentum_") + "xyz"[d], grains.exchange_momentum[d]);
   }
+  archive.number("density_ratio", grains.density_ratio);
+  if (lag_of(grains.density_ratio) > 0.0) felt.visit_state(archive);
 }
 
 // What follows from the state that was restored.

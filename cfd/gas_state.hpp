@@ -9,6 +9,7 @@
 #include "cfd/body_loads.hpp"
 #include "cfd/driving_gradient.hpp"
 #include "cfd/face_medium.hpp"
+#include "cfd/felt_gradient.hpp"
 #include "cfd/gas_domain.hpp"
 #include "cfd/gas_solver.hpp"
 #include "cfd/immersed_boundary.hpp"
@@ -44,6 +45,11 @@ struct GasSolver::State {
   // Steps 1 to 5 with the slopes at hand.
   void take_stage(StepReport& report, PassClock& clock, double dt, const AdamsBashforth& weights,
                   const Field* void_before);
+  void observe_felt_gradient(MomentumBudget& budget, double dt);
+  // On faces, Pa/m, in the last step.
+  const VectorField& felt_gradient() const {
+    return medium.lag > 0.0 && felt.is_known() ? felt.value() : projection.pressure_gradient();
+  }
   void measure_loads(MomentumBudget& budget, double dt, const AdamsBashforth& weights);
   Vec3 implicit_viscous_impulse(double dt) const;
   void check_finite(double magnitudes, double dt) const;
@@ -65,6 +71,7 @@ struct GasSolver::State {
   UnevenCells uneven_cells;
   Projection projection;
   DrivingGradient driving;
+  FeltGradient felt;  // with light grains
   VectorField velocity;
   VectorField start;           // velocity before the first stage of two
   Vec3 speeds = Vec3::Zero();  // largest |u| per direction of all ranks, m/s

@@ -2,7 +2,7 @@
 //
 //   sum over faces of a c A/h (p - p_neighbour) = -(1 - alpha) V (eps_new - eps_old)/dt
 //                                                 + swept - sum of a eps u* A outwards,
-//   c = eps dt / (rho (1 + K)),     K = dt B / (eps rho),
+//   c = eps dt / (rho (1 + K)),     K = dt B / (eps rho)      (or with felt_gradient.cpp),
 //
 // swept: what moving bodies leave to the cell (moving_walls.cpp),
 // with a half cell between the last cell and an outlet. Drag is part of c as well as of u*: with
@@ -17,6 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <type_traits>
 
 #include "cfd/halo_exchange.hpp"
 #include "cfd/solve_failure.hpp"
@@ -56,6 +57,17 @@ struct ScaledWithoutGrains : WithoutGrains {
   double mobility(std::ptrdiff_t n) const { return dt / (density * scale[n]); }
 };
 
+// The same where grains share in the pressure gradient by other than 1 - eps, felt_gradient.cpp.
+template <class Faces>
+struct SharedApart : Faces {
+  const double* sharing_void_fraction;
+  double lag;
+  double mobility(std::ptrdiff_t n) const {
+    const double of_gas = 1.0 - pressure_share(lag, sharing_void_fraction[n]).now;
+    return of_gas / Faces::void_fraction(n) * Faces::mobility(n);
+  }
+};
+
 // Calls visit with what the faces of a direction are filled with.
 template <class Visit>
 void with_faces(const FaceMedium& medium, double density, double dt, int d, const Visit& visit) {
@@ -63,11 +75,16 @@ void with_faces(const FaceMedium& medium, double density, double dt, int d, cons
                           density, dt};
   const WithoutGrains gas{density, dt};
   const double* scale = medium.density_scaling[d].data();
+  const auto visit_grains = [&](const auto& faces) {
+    using Faces = std::remove_cvref_t<decltype(faces)>;
+    if (!medium.shares_apart()) return visit(faces);
+    visit(SharedApart<Faces>{faces, medium.sharing_void_fraction()[d].data(), medium.lag});
+  };
   if (medium.has_scaling) {
-    medium.has_grains ? visit(ScaledWithGrains{grains, scale})
+    medium.has_grains ? visit_grains(ScaledWithGrains{grains, scale})
                       : visit(ScaledWithoutGrains{gas, scale});
   } else {
-    medium.has_grains ? visit(grains) : visit(gas);
+    medium.has_grains ? visit_grains(grains) : visit(gas);
   }
 }
 

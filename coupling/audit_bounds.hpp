@@ -17,7 +17,7 @@ struct AuditBounds {
   double pressure_force = 1e-6;  // the same for -V grad p
   double solid_volume = 1e-11;   // in the cells against the grains'
   double divergence = 1e-4;      // of the gas
-  double heating = 0.1;          // energy from nowhere over the grains' kinetic and elastic energy
+  double heating = 0.1;          // energy from nowhere over kinetic and elastic energy and a lift
   OnViolation on_violation = OnViolation::warn;
 };
 

@@ -82,9 +82,8 @@ void GasCoupling::measure(double interval) {
       limits.grain_motion =
           std::min(limits.grain_motion, motion_share * grain_diameter(grain) / speed);
     }
-    limits.exchange = std::min(limits.exchange,
-                               stable_exchange_interval(grain, void_fractions_[n], coefficients_[n],
-                                                        options_.drag.density));
+    limits.exchange = std::min(
+        limits.exchange, stable_exchange_interval(grain, void_fractions_[n], coefficients_[n]));
   }
   double deposited = 0;
   cfd::for_each_cell(void_fraction_.size(), [&](int i, int j, int k) {

@@ -17,7 +17,7 @@
 // lost, to round-off, whatever the state. Directions in which a cell has no free face (a grid one
 // cell deep) hold the gas at the wall's velocity: there the drag goes to the wall. When the
 // interval exceeds the gas solver's largest step, it is divided: eps changes linearly, and the
-// grains see the means of u and grad p that make both exchanges exact (cfd/interval_means.hpp).
+// grains see the means of u and of their share of grad p (cfd/felt_gradient.cpp).
 #include "coupling/gas_coupling.hpp"
 
 #include <algorithm>
@@ -168,9 +168,19 @@ void GasCoupling::adapt_kernel() {
   deposition_.set_width(kernel_width_, kernel_diameter_);
 }
 
+void GasCoupling::find_lightest_grains() {
+  if (options_.feedback == Feedback::one_way) return;
+  double largest = 0.0;
+  for (const GrainRecord& grain : transfer_.received())
+    largest = std::max(largest, options_.drag.density * grain.volume / grain.mass);
+  allreduce({&largest, 1}, MPI_MAX, gas_.decomposition().communicator());
+  gas_.grains().density_ratio = largest;
+}
+
 void GasCoupling::send_grains_to_gas_ranks(std::span<const GrainRecord> grains) {
   transfer_.send(grains);
   adapt_kernel();
+  find_lightest_grains();
   const std::vector<GrainRecord>& received = transfer_.received();
   std::vector<Vec3> positions(received.size());
   for (std::size_t n = 0; n < received.size(); ++n) positions[n] = received[n].position;
@@ -258,20 +268,29 @@ void GasCoupling::deposit_drag(double interval) {
                          amounts);
 }
 
+// Equal steps that the gas would need for that time now.
+int GasCoupling::steps_for(double time) const {
+  return std::max(1, static_cast<int>(std::ceil(time / gas_.largest_stable_step() * (1 - 1e-9))));
+}
+
 void GasCoupling::advance_gas(double interval) {
   const double start = MPI_Wtime();
-  const int steps =
-      std::max(1, static_cast<int>(std::ceil(interval / gas_.largest_stable_step() * (1 - 1e-9))));
   const cfd::Field old_void_fraction = gas_.grains().void_fraction;
-  if (steps > 1) gas_.start_means();
-  for (int s = 1; s <= steps; ++s) {
-    const double share = double(s) / steps;
+  double left = interval;
+  int steps = steps_for(left);
+  const bool divided = steps > 1;
+  if (divided) gas_.start_means(void_fraction_);
+  for (; left > 0; steps = steps_for(left)) {  // the flow changes its largest step on the way
+    const double dt = left / steps;
+    left = steps > 1 ? left - dt : 0.0;
+    const double share = 1.0 - left / interval;
     cfd::Field& eps = gas_.grains().void_fraction;
     for (std::size_t n = 0; n < eps.count(); ++n) {
-      eps[n] = s == steps ? void_fraction_[n]
+      eps[n] = steps == 1 ? void_fraction_[n]
                           : (1 - share) * old_void_fraction[n] + share * void_fraction_[n];
     }
-    const cfd::StepReport step = gas_.advance(interval / steps);
+    ++report_.gas_steps;
+    const cfd::StepReport step = gas_.advance(dt);
     report_.pressure_iterations += step.pressure.iterations;
     report_.pressure_fallbacks += step.pressure.fallbacks;
     report_.divergence = std::max(report_.divergence, step.divergence);
@@ -279,11 +298,10 @@ void GasCoupling::advance_gas(double interval) {
     report_.swept_imbalance = std::max(report_.swept_imbalance, step.swept_imbalance);
     add(report_.gas_momentum, step.momentum);
   }
-  if (steps > 1)
+  if (divided)
     gas_.sample_means_at_cells(velocity_, pressure_gradient_);
   else
     gas_.sample_at_cells(velocity_, pressure_gradient_);
-  report_.gas_steps = steps;
   report_.interval = interval;
   report_.gas_seconds = MPI_Wtime() - start;
   add_drag_on_walls(interval);

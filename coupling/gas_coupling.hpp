@@ -49,11 +49,13 @@ class GasCoupling {
   void move_bodies(double interval);
   void find_closed_cells();
   void adapt_kernel();
+  void find_lightest_grains();
   void send_grains_to_gas_ranks(std::span<const GrainRecord> grains);
   void deposit_void_fraction();
   void gather_sauter_diameters();
   void evaluate_drag();
   void deposit_drag(double interval);
+  int steps_for(double time) const;
   void advance_gas(double interval);
   void add_drag_on_walls(double interval);
   double wall_motion_limit() const;

@@ -25,13 +25,9 @@ bool void_fraction_is_limited(const SurroundingGas& gas, const DragOptions& opti
 }
 
 double stable_exchange_interval(const GrainRecord& grain, double void_fraction,
-                                double exchange_coefficient, double gas_density) {
+                                double exchange_coefficient) {
   if (exchange_coefficient <= 0) return std::numeric_limits<double>::infinity();
-  const double displaced =
-      gas_density * grain.volume * (1.0 - void_fraction) / (grain.mass * void_fraction);
-  const double inertia = std::max(0.0, 1.0 - 0.5 * displaced);
-  return 2.0 * void_fraction * void_fraction * grain.mass / exchange_coefficient *
-         std::min(1.0, 2.0 * std::pow(inertia, 4));
+  return 2.0 * void_fraction * void_fraction * grain.mass / exchange_coefficient;
 }
 
 }  // namespace gasgrain::coupling

@@ -30,10 +30,8 @@ double exchange_coefficient(const GrainRecord& grain, const SurroundingGas& gas,
 bool void_fraction_is_limited(const SurroundingGas& gas, const DragOptions& options);
 
 // Longest interval over which a grain may keep its drag without the exchange oscillating:
-// 2 eps^2 (1 - eps) rho_s / beta = 2 eps^2 m / B, s, times min(1, 2 (1 - a/2)^4) for the inertia
-// of the gas that grains displace, a = rho (1 - eps) / (rho_s eps); 0 from a = 2 on (derived in
-// docs/coupling.md). `gas_density` in kg/m^3.
+// 2 eps^2 (1 - eps) rho_s / beta = 2 eps^2 m / B, s.
 double stable_exchange_interval(const GrainRecord& grain, double void_fraction,
-                                double exchange_coefficient, double gas_density);
+                                double exchange_coefficient);
 
 }  // namespace gasgrain::coupling

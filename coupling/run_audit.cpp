@@ -100,9 +100,11 @@ AuditRow RunAudit::close(int axis) {
   const double weight = std::abs(row.balance.grain_weight[axis]);
   row.momentum_residual =
       weight > 0 ? row.balance.residual[axis] / weight : row.balance.residual[axis];
-  const double store = row.energy.kinetic + row.energy.rotation + row.energy.elastic;
+  // a bed at rest has next to no energy; what it would gain by sinking a diameter is its scale
+  const double lift = row.grains.mass * host_.gravity().norm() * host_.sizes().largest_diameter;
+  const double scale = row.energy.kinetic + row.energy.rotation + row.energy.elastic + lift;
   row.heating =
-      store > 0 && !host_.walls_move() ? std::max(0.0, -row.energy.dissipated) / store : 0.0;
+      scale > 0 && !host_.walls_move() ? std::max(0.0, -row.energy.dissipated) / scale : 0.0;
   row.overlap = std::exchange(overlap_, {});
   return row;
 }

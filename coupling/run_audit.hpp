@@ -26,7 +26,7 @@ struct AuditRow {
   TrafficSums traffic;
   GrainTotals grains;              // at its end
   double momentum_residual = 0.0;  // vertical, over the grains' weight
-  double heating = 0.0;            // energy from nowhere over kinetic and elastic energy
+  double heating = 0.0;  // energy from nowhere over that of motion, springs and a lift by d
   plugins::LargestOverlap overlap;
 };
 

@@ -118,9 +118,7 @@ def physics(point):
         velocity *= minimum_fluidization(void, point.diameter, gas_density)
     slip = velocity / void
     rate = drag(void, slip, point.diameter, gas_density)
-    displaced = gas_density / GRAIN_DENSITY * (1 - void) / void
     limit = 2 * void**2 * GRAIN_DENSITY / rate
-    limit *= min(1.0, 2 * max(0.0, 1 - displaced / 2)**4)
     interval = point.interval * limit
     if point.varied == "gas_step" or point.scene == "plug":
         interval = min(interval or 0.05 * limit, MOST_GAS_STEPS * point.gas_step)
