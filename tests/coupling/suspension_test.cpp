@@ -171,9 +171,10 @@ TEST(Suspension, drag_that_follows_the_grains_keeps_the_momentum) {
 //
 //   M_gas = rho A integral of (1 - eps)^2/eps dz.
 //
-// Without drag to speak of the grains follow the constant force F by that law, from rest. At the
-// last density the displaced gas weighs twice as much as the grains: a force that came an interval
-// after its cause would grow from interval to interval.
+// Without drag to speak of the grains follow the constant force F by that law. From rest they are
+// faster for a few intervals, until the gas's resistance is felt in full: the first third is left
+// out. At the last density the displaced gas weighs more than the grains: a force that came an
+// interval after its cause would grow from interval to interval.
 TEST(Suspension, plug_carries_the_inertia_of_the_gas_that_it_displaces) {
   for (const double density : {2500.0, 12.0, 5.0}) {
     const std::string text = column("no-slip", 0.003, "4, 4, 24", "");
@@ -191,8 +192,9 @@ TEST(Suspension, plug_carries_the_inertia_of_the_gas_that_it_displaces) {
     });
     displaced *= coupling.gas().decomposition().grid().cell_volume();
     const double dt = 1e-4, acceleration = 1e-4;  // so slow that drag is nothing
-    double velocity = 0.0;
+    double velocity = 0.0, at_start = 0.0;
     for (int step = 0; step < 150; ++step) {
+      if (step == 50) at_start = velocity;
       Vec3 gas = Vec3::Zero();
       for (const Vec3& force : forces) gas += force;
       const double before = velocity;
@@ -205,9 +207,11 @@ TEST(Suspension, plug_carries_the_inertia_of_the_gas_that_it_displaces) {
       EXPECT_LT(report.third_law_residual, 1e-12);
       EXPECT_LT(report.pressure_residual, 1e-12);
     }
-    const double law = acceleration * 150 * dt * mass / (mass + displaced);
-    EXPECT_NEAR(velocity / law, 1.0, 0.02) << density << ": displaced " << displaced / mass;
-    RecordProperty("displaced_" + std::to_string(int(density)), std::to_string(displaced / mass));
+    const double law = acceleration * 100 * dt * mass / (mass + displaced);
+    EXPECT_NEAR((velocity - at_start) / law, 1.0, 0.02)
+        << density << ": displaced " << displaced / mass;
+    RecordProperty("at_density_" + std::to_string(int(density)),
+                   std::to_string((velocity - at_start) / law));
   }
 }
 
