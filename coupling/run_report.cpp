@@ -153,7 +153,8 @@ std::string closing_text(const SeriesRow& row, const RunStatistics& statistics,
   out += text("  energy               gas did %.3g J on the grains, %.3g J dissipated",
               statistics.gas_work, statistics.dissipated);
   out += extremes.heating > 0
-             ? text("; most from nowhere %.2g of kinetic and elastic energy\n", extremes.heating)
+             ? text("; most from nowhere %.2g of kinetic, elastic and lifting energy\n",
+                    extremes.heating)
              : "\n";
   if (statistics.appeared + statistics.left > 0) {
     out += text("  grains               %ld inserted, %ld left the box\n", statistics.appeared,
@@ -268,7 +269,7 @@ std::vector<Quantity> summary_quantities(const SeriesRow& row, const RunStatisti
        "-",
        {},
        {},
-       "energy from nowhere in an interval over kinetic and elastic energy"},
+       "energy from nowhere in an interval over kinetic and elastic energy and weight x diameter"},
       {"gas_work", statistics.gas_work, "J", {}, {}, "of the gas on the grains, audited intervals"},
       {"dissipated_energy",
        statistics.dissipated,

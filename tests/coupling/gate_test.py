@@ -15,7 +15,7 @@ motion = {{translate = {{velocity = [1.5, 0, 0]}}, start = {OPENS}}}
 
 
 def case():
-    text = bed.case(bottom='"no-slip"', coupling="series_interval = 5e-4", interval=0.1)
+    text = bed.case(bottom="no-slip", coupling="series_interval = 5e-4", interval=0.1)
     tube = text.index('[[body]]\nname = "tube"')
     after = text.index("[numerics]")
     text = text[:tube] + GATE + text[after:]
