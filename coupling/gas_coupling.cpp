@@ -280,7 +280,7 @@ void GasCoupling::advance_gas(double interval) {
   int steps = steps_for(left);
   const bool divided = steps > 1;
   if (divided) gas_.start_means(void_fraction_);
-  for (; left > 0; steps = steps_for(left)) {  // the flow changes its largest step on the way
+  while (steps > 0) {
     const double dt = left / steps;
     left = steps > 1 ? left - dt : 0.0;
     const double share = 1.0 - left / interval;
@@ -297,6 +297,7 @@ void GasCoupling::advance_gas(double interval) {
     report_.removed_mean = std::max(report_.removed_mean, step.removed_mean);
     report_.swept_imbalance = std::max(report_.swept_imbalance, step.swept_imbalance);
     add(report_.gas_momentum, step.momentum);
+    steps = left > 0 ? steps_for(left) : 0;  // the flow changes its largest step on the way
   }
   if (divided)
     gas_.sample_means_at_cells(velocity_, pressure_gradient_);
