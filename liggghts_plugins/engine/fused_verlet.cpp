@@ -225,12 +225,19 @@ bool FusedVerlet::reneighbouring_due() {
   return moved_ > nearly_all * allowed;
 }
 
-// The middle of Verlet::run().
+// The middle of Verlet::run(). A shrink-wrapped box changes here and nowhere else.
 void FusedVerlet::reneighbour() {
   store_state(0);
   store_histories();
   if (modify->n_pre_exchange) modify->pre_exchange();
   domain->pbc();
+  std::optional<WideBins> bins;
+  if (domain->box_change) {
+    bins.emplace(*lmp);
+    domain->reset_box();
+    comm->setup();
+    neighbor->setup_bins();
+  }
   timer->stamp();
   comm->exchange();
   if (atom->sortfreq > 0 && update->ntimestep >= atom->nextsort) atom->sort();

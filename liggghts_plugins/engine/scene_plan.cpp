@@ -127,7 +127,6 @@ class Planner {
     const LAMMPS_NS::Domain& domain = *lmp_.domain;
     const LAMMPS_NS::Atom& atom = *lmp_.atom;
     oppose_if(domain.triclinic != 0, "triclinic box");
-    oppose_if(domain.box_change != 0, "box that changes (shrink-wrapped boundary, fix deform)");
     oppose_if(domain.dimension != 3, "dimension 2");
     oppose_if(!atom.sphere_flag || !atom.rmass || atom.molecular != 0, "atom style");
     oppose_if(atom.radvary_flag != 0, "radii that change");
@@ -138,6 +137,8 @@ class Planner {
 
   void look_at_fix(Fix& fix) {
     const int hooks = lmp_.modify->fmask[index_of(fix)] & ~harmless_hooks;
+    if (fix.box_change_size || fix.box_change_shape || fix.box_change_domain)
+      oppose(std::string("box that fix ") + fix.id + " " + fix.style + " changes");
     if (fix.force_reneighbor) plan_.reneighbouring.push_back(&fix);
     if (fuses(fix)) return;
     const bool known = std::any_of(reneighbouring_styles.begin(), reneighbouring_styles.end(),

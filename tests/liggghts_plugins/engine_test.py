@@ -73,6 +73,16 @@ class SameMotion(EngineTest):
                 self.check(scene(boundary="p p p", walls=""), files(crowd()), ranks,
                            dump_command("d", 100, UNWRAPPED) + "run 1000\n")
 
+    def test_shrink_wrapped_box_grows_with_the_grains(self):
+        for boundary in ("s s s", "m m m", "s p m"):
+            for ranks in (1, 2):
+                with self.subTest(boundary=boundary, ranks=ranks):
+                    frames = self.check(scene(boundary=boundary, walls=""), files(crowd()), ranks,
+                                        dump_command("d", 100, UNWRAPPED) + "run 1000\n")
+                    self.assertEqual(len(frames[-1]), len(frames[0]))
+                    beyond = [g for g in frames[-1].values() if not 0 < g[0] < 2 * SIDE]
+                    self.assertGreater(len(beyond), 0)
+
     PRIMITIVES = "".join(
         f"fix {name} all wall/gran model {{model}} primitive type 2 {kind} {place:.17g}{more}\n"
         for name, kind, place, more in (
