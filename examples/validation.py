@@ -28,7 +28,7 @@ STORE = common.ROOT / "docs" / "validation"
 PAGE = common.ROOT / "docs" / "validation.md"
 CASES = ("1-1", "1-2", "2-1", "2-2", "3-1", "3-2")
 VELOCITIES = {"1-1": "0.2", "1-2": "0.3"}  # m/s
-BALANCE = 1e-6  # of the weight, reference/verification.md
+BALANCE = 1e-6  # of the weight: what closes to round-off, with room for grains that leave
 
 # name in summary.json, label, factor, unit
 DIE = (("start_height", "height in the shoe at the start", 1e3, "mm"),

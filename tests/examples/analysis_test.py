@@ -96,7 +96,7 @@ class Plateau(unittest.TestCase):
 
 class Steps(unittest.TestCase):
     def test_contact_time_of_the_paper(self):
-        # reference/verification.md: 1.137e-5 s for 50 um, 2500 kg/m^3, 50 N/m, e = 0.9
+        # the paper's bed: 1.137e-5 s for 50 um, 2500 kg/m^3, 50 N/m, e = 0.9
         self.assertAlmostEqual(grains.contact_time(50e-6, 2500, 50, 0.9), 1.137e-5, delta=1e-8)
 
     def test_step_divides_the_exchange_and_is_short_enough(self):

@@ -161,7 +161,7 @@ def cgm_properties(types=1, k=50.0, e=0.9, mu=0.3):
 
 
 def damping(e, effective_mass, k):
-    """eta = -2 ln e sqrt(m_eff k / (pi^2 + ln^2 e)), design section 2."""
+    """eta = -2 ln e sqrt(m_eff k / (pi^2 + ln^2 e)), docs/coarse_graining.md."""
     return -2 * math.log(e) * math.sqrt(effective_mass * k / (math.pi**2 + math.log(e)**2))
 
 

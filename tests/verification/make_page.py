@@ -21,7 +21,8 @@ Made by `tests/verification/run` from the stored results; do not edit by hand. E
 
 Error: relative to the reference, or the value itself where the reference is 0. Values without a
 bound are for comparison: coarser grids, and published values with a known error of their own.
-References and their sources: [references.csv](../tests/verification/references.csv). A new case is a
+References and their sources: [references.csv](../tests/verification/references.csv).
+"Prototype": a small program, written apart from this code before it, with the same scheme. A new case is a
 test that calls `Report::check` (`tests/verification/report.hpp`) and a row there per quantity.
 """
 
