@@ -4,11 +4,9 @@ import os
 
 
 def mpi_environment(**more):
-    """Open MPI: allow root (containers), leave the cores to the scheduler, and give ranks a minute
-    instead of a second to end after SIGTERM."""
+    """Open MPI: allow root (containers), leave the cores to the scheduler."""
     return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-            "OMPI_MCA_hwloc_base_binding_policy": "none",
-            "OMPI_MCA_odls_base_sigkill_timeout": "60", "OMP_NUM_THREADS": "1", **more}
+            "OMPI_MCA_hwloc_base_binding_policy": "none", "OMP_NUM_THREADS": "1", **more}
 
 
 def patient_environment():

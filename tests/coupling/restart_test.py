@@ -71,6 +71,11 @@ def files(bench):
     return sorted(os.listdir(bench.directory / "points"))
 
 
+# mpirun kills the ranks so many seconds after it has handed on SIGTERM; its one second is too short
+# for a checkpoint on a busy machine.
+PATIENCE = {"OMPI_MCA_odls_base_sigkill_timeout": "60"}
+
+
 class Restart(unittest.TestCase):
     def whole(self, ranks, steps=1000):
         bench = bed.bench(case())
@@ -203,7 +208,7 @@ class Restart(unittest.TestCase):
         (bench.directory / "in.script").write_text(script)
         return subprocess.Popen(
             [MPIEXEC, "--oversubscribe", "-n", str(ranks), GASGRAIN, "-in", "in.script"],
-            cwd=bench.directory, env=ENVIRONMENT, stdin=subprocess.DEVNULL,
+            cwd=bench.directory, env={**ENVIRONMENT, **PATIENCE}, stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def wait_for(self, condition, seconds=120):
