@@ -71,9 +71,9 @@ def files(bench):
     return sorted(os.listdir(bench.directory / "points"))
 
 
-# mpirun kills the ranks so many seconds after it has handed on SIGTERM; its one second is too short
-# for a checkpoint on a busy machine.
-PATIENCE = {"OMPI_MCA_odls_base_sigkill_timeout": "60"}
+# mpirun kills the ranks so many seconds after it has handed on SIGTERM, and always waits as long; its
+# one second is too short for a checkpoint on a busy machine.
+PATIENCE = {"OMPI_MCA_odls_base_sigkill_timeout": "5"}
 
 
 class Restart(unittest.TestCase):
