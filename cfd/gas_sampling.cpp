@@ -3,6 +3,7 @@
 #include "cfd/gas_state.hpp"
 #include "cfd/halo_exchange.hpp"
 #include "cfd/momentum_budget.hpp"
+#include "cfd/viscous_stress.hpp"
 #include "coupling/shared/error.hpp"
 
 namespace gasgrain::cfd {
@@ -41,13 +42,33 @@ const Field& GasSolver::void_fraction() const {
   return state_->medium.cell_void_fraction;
 }
 
-void GasSolver::State::sample(VectorField& velocity_at_cells, VectorField& gradient_at_cells,
-                              const VectorField& u, const VectorField& gradient) const {
+namespace {
+
+IndexBox sampled_cells(const GasDomain& domain) {
   IndexBox cells{{0, 0, 0}, domain.size()};
   for (int d = 0; d < 3 && domain.any_lenders; ++d) {  // hosts of lenders are also first ghosts
     if (!domain.decomposition.at_boundary(d, 0)) cells.begin[d] -= 1;
     if (!domain.decomposition.at_boundary(d, 1)) cells.end[d] += 1;
   }
+  return cells;
+}
+
+// A force per volume, of direction d: what the faces give to their cells when cell values are
+// spread to faces with the same shares.
+void sample_force(Field& at_cells, const GasDomain& domain, const Field& at_faces, int d) {
+  for_box(sampled_cells(domain), at_faces,
+          [s = at_faces.stride(d), lower = domain.walls.lower_share[d].data(),
+           upper = domain.walls.upper_share[d].data(), f = at_faces.data(),
+           result = at_cells.data()](std::ptrdiff_t n) {
+            result[n] = lower[n] * f[n] + upper[n] * f[n + s];
+          });
+  for (const Lender& lender : domain.lenders[d]) at_cells[lender.cell] = at_cells[lender.host];
+}
+
+}  // namespace
+
+void GasSolver::State::sample(VectorField& velocity_at_cells, VectorField& gradient_at_cells,
+                              const VectorField& u, const VectorField& gradient) const {
   for (int d = 0; d < 3; ++d) {
     for (VectorField* result : {&velocity_at_cells, &gradient_at_cells}) {
       if ((*result)[d].size() != domain.size()) (*result)[d] = Field(domain.size());
@@ -55,18 +76,15 @@ void GasSolver::State::sample(VectorField& velocity_at_cells, VectorField& gradi
     const std::ptrdiff_t s = u[d].stride(d);
     const double* lower = domain.walls.lower_share[d].data();
     const double* upper = domain.walls.upper_share[d].data();
-    for_box(cells, u[d], [=, u = u[d].data(), result = velocity_at_cells[d].data()](auto n) {
-      const bool free = lower[n] + upper[n] > 0.0;
-      const double mean = lower[n] * u[n] + upper[n] * u[n + s];
-      result[n] = free ? mean : 0.5 * (u[n] + u[n + s]);
-    });
-    for_box(cells, u[d], [=, g = gradient[d].data(), result = gradient_at_cells[d].data()](auto n) {
-      result[n] = lower[n] * g[n] + upper[n] * g[n + s];
-    });
-    for (const Lender& lender : domain.lenders[d]) {
+    for_box(sampled_cells(domain), u[d],
+            [=, u = u[d].data(), result = velocity_at_cells[d].data()](auto n) {
+              const bool free = lower[n] + upper[n] > 0.0;
+              const double mean = lower[n] * u[n] + upper[n] * u[n + s];
+              result[n] = free ? mean : 0.5 * (u[n] + u[n + s]);
+            });
+    for (const Lender& lender : domain.lenders[d])
       velocity_at_cells[d][lender.cell] = velocity_at_cells[d][lender.host];
-      gradient_at_cells[d][lender.cell] = gradient_at_cells[d][lender.host];
-    }
+    sample_force(gradient_at_cells[d], domain, gradient[d], d);
   }
   Field* const results[] = {&velocity_at_cells[0], &velocity_at_cells[1], &velocity_at_cells[2],
                             &gradient_at_cells[0], &gradient_at_cells[1], &gradient_at_cells[2]};
@@ -75,6 +93,25 @@ void GasSolver::State::sample(VectorField& velocity_at_cells, VectorField& gradi
 
 void GasSolver::sample_at_cells(VectorField& velocity, VectorField& pressure_gradient) const {
   state_->sample(velocity, pressure_gradient, state_->velocity, state_->felt_gradient());
+}
+
+void GasSolver::sample_viscous_force_at_cells(VectorField& force) const {
+  const GasDomain& domain = state_->domain;
+  VectorField at_faces;
+  for (int d = 0; d < 3; ++d) {
+    at_faces[d] = Field(domain.size());
+    if (force[d].size() != domain.size()) force[d] = Field(domain.size());
+    if (!domain.solved[d]) continue;
+    const IndexBox faces = all_faces(domain, d);
+    add_viscous_stress(at_faces[d], domain, faces, state_->medium, state_->velocity, d);
+    for_box(faces, at_faces[d],
+            [f = at_faces[d].data(), part = domain.walls.takes_part[d].data()](std::ptrdiff_t n) {
+              f[n] *= part[n];
+            });
+  }
+  fill_ghosts(domain.decomposition, at_faces);
+  for (int d = 0; d < 3; ++d) sample_force(force[d], domain, at_faces[d], d);
+  fill_ghosts(domain.decomposition, force);
 }
 
 void GasSolver::start_means(const Field& void_fraction_at_end) {

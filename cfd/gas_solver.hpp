@@ -134,6 +134,8 @@ class GasSolver {
   // on grains in their last places is what the gas has felt (cfd/felt_gradient.cpp).
   void start_means(const Field& void_fraction_at_end);
   void sample_means_at_cells(VectorField& velocity, VectorField& pressure_gradient);
+  // div(eps tau) of the velocities after the last step, N/m^3, sampled as the pressure gradient.
+  void sample_viscous_force_at_cells(VectorField& force) const;
 
   // Mean pressure over the open area of a side of the grid that is not periodic, Pa, extrapolated
   // from the control volumes of the faces next to it so that the momentum balance closes.

@@ -63,6 +63,7 @@ class Projection {
                            const VectorField& velocity, double dt);
   void add_outlets();
   double remove_means(double dt);
+  void clear_round_off();
   double balance_swept_volume();
   void set_pressure_means(Field& pressure, double reference);
   void check(const PressureReport& report) const;

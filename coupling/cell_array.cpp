@@ -169,6 +169,7 @@ void add_ghosts_to_owners(const cfd::Decomposition& decomposition, CellArray<com
                                         const GhostLayers&);
 GASGRAIN_INSTANTIATE(1)
 GASGRAIN_INSTANTIATE(2)
+GASGRAIN_INSTANTIATE(3)
 GASGRAIN_INSTANTIATE(4)
 GASGRAIN_INSTANTIATE(6)
 #undef GASGRAIN_INSTANTIATE

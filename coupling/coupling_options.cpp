@@ -20,6 +20,7 @@ CouplingOptions read_coupling_options(const ConfigTable& table, const cfd::GasCa
   options.drag_update = table.choice_or("drag_update", "held", {"held", "dem-step"}) == "held"
                             ? DragUpdate::held
                             : DragUpdate::dem_step;
+  options.viscous_stress = table.flag_or("viscous_stress", false);
   options.mapping =
       find_mapping(table.choice_or("mapping", mapping_name(options.mapping), mapping_names()));
   options.exchange_interval = table.number_or("exchange_interval", 0.0, Range::positive());

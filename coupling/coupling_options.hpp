@@ -27,6 +27,7 @@ struct CouplingOptions {
   DragOptions drag;
   Feedback feedback = Feedback::two_way;
   DragUpdate drag_update = DragUpdate::held;
+  bool viscous_stress = false;  // grains feel V div(eps tau), the gas the opposite
   Mapping mapping = Mapping::spline;
   double exchange_interval = 0.0;  // s, requested interval between exchanges; 0 = from the limits
   // m, standard deviation of the deposition kernel; 0: from dx and d, other mappings than the

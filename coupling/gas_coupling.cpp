@@ -4,9 +4,11 @@
 //   1  the grains' data go to the ranks that own their cells
 //   2  eps = 1 - D V at the grains' new places
 //   3  B = beta V / (1 - eps) per grain with eps and u gathered by D^T; u as the grains felt it
-//   last 4  D B and D (B v) go to the gas 5  the gas advances over the interval, with B (u - v)
-//   implicit 6  F = B (u - v) - V grad p with u and grad p gathered by D^T 7  the forces go back
-//   and are held over the next interval
+//      last; with viscous_stress also W = V div(eps tau), of the gas as the last exchange left it
+//   4  D B and D (B v - W) go to the gas
+//   5  the gas advances over the interval, with B (u - v) implicit
+//   6  F = B (u - v) + W - V grad p with u and grad p gathered by D^T
+//   7  the forces go back and are held over the next interval
 //
 // What the grains received since the last exchange differs from what the gas gave when the interval
 // changed its length, or when their drag followed their velocities: the difference is carried per
@@ -65,6 +67,7 @@ GasCoupling::GasCoupling(const cfd::GasCase& gas_case, const CouplingOptions& op
   for (int d = 0; d < 3; ++d) {
     velocity_[d] = cfd::Field(gas_.decomposition().block().size);
     pressure_gradient_[d] = cfd::Field(gas_.decomposition().block().size);
+    if (options_.viscous_stress) viscous_force_[d] = cfd::Field(gas_.decomposition().block().size);
   }
   find_closed_cells();
   kernel_width_ = options_.kernel_width;
@@ -95,6 +98,7 @@ ExchangeReport GasCoupling::begin(std::span<Vec3> forces, std::span<const GrainR
   gas_.accept_void_fraction_as_old();
   gas_.sample_at_cells(velocity_, pressure_gradient_);
   evaluate_drag();
+  evaluate_viscous_force();
   deposit_drag(0.0);
   gather_forces();
   transfer_.return_to_senders(forces, forces_);
@@ -109,6 +113,7 @@ ExchangeReport GasCoupling::exchange(std::span<Vec3> forces, std::span<const Gra
   send_grains_to_gas_ranks(grains);
   deposit_void_fraction();
   evaluate_drag();
+  evaluate_viscous_force();
   deposit_drag(interval);
   advance_gas(interval);
   gather_forces();
@@ -138,6 +143,7 @@ void GasCoupling::visit_state(cfd::StateArchive& archive) {
     const std::string axis(1, "xyz"[d]);
     archive.cells("felt_velocity_" + axis, velocity_[d]);
     archive.cells("felt_pressure_gradient_" + axis, pressure_gradient_[d]);
+    if (options_.viscous_stress) archive.cells("viscous_force_" + axis, viscous_force_[d]);
   }
   if (!archive.restores()) return;
   deposition_.set_walls(gas_.walls());
@@ -145,6 +151,7 @@ void GasCoupling::visit_state(cfd::StateArchive& archive) {
   const cfd::Decomposition& decomposition = gas_.decomposition();
   cfd::fill_ghosts(decomposition, velocity_);
   cfd::fill_ghosts(decomposition, pressure_gradient_);
+  if (options_.viscous_stress) cfd::fill_ghosts(decomposition, viscous_force_);
   kernel_is_adapted_ = true;
   deposition_.set_width(kernel_width_, kernel_diameter_);
 }
@@ -252,6 +259,20 @@ void GasCoupling::evaluate_drag() {
   }
 }
 
+// Of the mixture's viscous force each phase has its share of the volume: grains (1 - eps), which is
+// V per grain, the gas eps. The gas solver computes all of it; deposit_drag() takes W from the gas.
+void GasCoupling::evaluate_viscous_force() {
+  if (!options_.viscous_stress) return;
+  const std::vector<GrainRecord>& grains = transfer_.received();
+  std::vector<std::array<double, 3>> gathered(grains.size());
+  deposition_.gather<3>(gathered, {&viscous_force_[0], &viscous_force_[1], &viscous_force_[2]});
+  viscous_.resize(grains.size());
+  for (std::size_t n = 0; n < grains.size(); ++n) {
+    const auto& [x, y, z] = gathered[n];
+    viscous_[n] = grains[n].volume * Vec3(x, y, z);
+  }
+}
+
 // In units of B v: what the grains carry is given back over the interval.
 void GasCoupling::deposit_drag(double interval) {
   if (options_.feedback == Feedback::one_way) return;
@@ -260,6 +281,7 @@ void GasCoupling::deposit_drag(double interval) {
   for (std::size_t n = 0; n < grains.size(); ++n) {
     Vec3 momentum = coefficients_[n] * grains[n].velocity;
     if (interval > 0) momentum -= grains[n].carried / interval;
+    if (options_.viscous_stress) momentum -= viscous_[n];
     amounts[n] = {coefficients_[n], momentum[0], momentum[1], momentum[2]};
   }
   cfd::GrainPhase& phase = gas_.grains();
@@ -303,6 +325,7 @@ void GasCoupling::advance_gas(double interval) {
     gas_.sample_means_at_cells(velocity_, pressure_gradient_);
   else
     gas_.sample_at_cells(velocity_, pressure_gradient_);
+  if (options_.viscous_stress) gas_.sample_viscous_force_at_cells(viscous_force_);
   report_.interval = interval;
   report_.gas_seconds = MPI_Wtime() - start;
   add_drag_on_walls(interval);
@@ -339,6 +362,7 @@ void GasCoupling::gather_forces() {
   for (std::size_t n = 0; n < grains.size(); ++n) {
     const auto& g = gathered[n];
     drag_[n] = coefficients_[n] * (Vec3(g[0], g[1], g[2]) - grains[n].velocity);
+    if (options_.viscous_stress) drag_[n] += viscous_[n];
     pressure_[n] = -grains[n].volume * Vec3(g[3], g[4], g[5]);
     forces_[n] = drag_[n] + pressure_[n];
   }

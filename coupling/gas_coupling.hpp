@@ -54,6 +54,7 @@ class GasCoupling {
   void deposit_void_fraction();
   void gather_sauter_diameters();
   void evaluate_drag();
+  void evaluate_viscous_force();
   void deposit_drag(double interval);
   int steps_for(double time) const;
   void advance_gas(double interval);
@@ -72,16 +73,19 @@ class GasCoupling {
   bool kernel_is_adapted_ = false;  // to that largest grain
 
   // Per received grain.
-  std::vector<double> coefficients_;            // B, kg/s
-  std::vector<double> void_fractions_;          // eps around it
-  std::vector<double> sauter_diameters_;        // of the originals around it, m; mixtures only
-  std::vector<Vec3> drag_, pressure_, forces_;  // N; forces_ = drag_ + pressure_
+  std::vector<double> coefficients_;      // B, kg/s
+  std::vector<double> void_fractions_;    // eps around it
+  std::vector<double> sauter_diameters_;  // of the originals around it, m; mixtures only
+  std::vector<Vec3> viscous_;             // V div(eps tau), N; empty without it
+  std::vector<Vec3> drag_, pressure_,
+      forces_;  // N; drag_ with viscous_; forces_ = drag_ + pressure_
 
   // Cells.
   cfd::Field void_fraction_;                       // at the end of the interval
   std::array<bool, 3> has_closed_cells_{};         // open cells of this rank without a free face
   cfd::VectorField velocity_, pressure_gradient_;  // as the grains see them: means over gas steps
-  ExchangeReport report_;                          // of the exchange under way, this rank's part
+  cfd::VectorField viscous_force_;  // div(eps tau) after the last gas step, N/m^3; empty without it
+  ExchangeReport report_;           // of the exchange under way, this rank's part
 };
 
 }  // namespace gasgrain::coupling

@@ -133,6 +133,7 @@ void Smoothing::apply(CellArray<components>& cells, const CellRange& range) {
   template void Smoothing::apply<components>(CellArray<components>&, const CellRange&);
 GASGRAIN_INSTANTIATE(1)
 GASGRAIN_INSTANTIATE(2)
+GASGRAIN_INSTANTIATE(3)
 GASGRAIN_INSTANTIATE(4)
 GASGRAIN_INSTANTIATE(6)
 #undef GASGRAIN_INSTANTIATE

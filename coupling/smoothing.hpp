@@ -63,7 +63,7 @@ class Smoothing {
   cfd::Field inverse_open_fraction_;  // 0 in closed cells
   cfd::VectorField passage_;          // min(1 - alpha) of the two cells of an open face, else 0
   cfd::VectorField conductance_;      // lambda * passage
-  std::tuple<CellArray<1>, CellArray<2>, CellArray<4>, CellArray<6>> scratch_;
+  std::tuple<CellArray<1>, CellArray<2>, CellArray<3>, CellArray<4>, CellArray<6>> scratch_;
 };
 
 }  // namespace gasgrain::coupling

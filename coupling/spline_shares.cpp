@@ -147,6 +147,7 @@ void SplineShares::collect(std::span<std::array<double, components>> values,
                                                   const CellArray<components>&) const;
 GASGRAIN_INSTANTIATE(1)
 GASGRAIN_INSTANTIATE(2)
+GASGRAIN_INSTANTIATE(3)
 GASGRAIN_INSTANTIATE(4)
 GASGRAIN_INSTANTIATE(6)
 #undef GASGRAIN_INSTANTIATE

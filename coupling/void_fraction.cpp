@@ -154,6 +154,7 @@ void Deposition::gather(std::span<std::array<double, components>> values,
                                                const std::array<const cfd::Field*, components>&);
 GASGRAIN_INSTANTIATE(1)
 GASGRAIN_INSTANTIATE(2)
+GASGRAIN_INSTANTIATE(3)
 GASGRAIN_INSTANTIATE(4)
 GASGRAIN_INSTANTIATE(6)
 #undef GASGRAIN_INSTANTIATE

@@ -65,7 +65,7 @@ class Deposition {
   double largest_diameter_ = 0.0;       // m
   CellRange range_;                     // cells that grains reach, smoothing included
   std::optional<ListedShares> listed_;  // of other mappings than the B-spline
-  std::tuple<CellArray<1>, CellArray<2>, CellArray<4>, CellArray<6>> buffers_;
+  std::tuple<CellArray<1>, CellArray<2>, CellArray<3>, CellArray<4>, CellArray<6>> buffers_;
 };
 
 }  // namespace gasgrain::coupling

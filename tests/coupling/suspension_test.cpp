@@ -77,8 +77,8 @@ void follow(std::vector<GrainRecord>& grains, const std::vector<Vec3>& forces,
 
 // The grains exchange momentum in their places: where the void fraction changes, the advective form
 // of the gas's equation leaves a remainder in its momentum.
-TEST(Suspension, impulse_between_gas_and_a_cloud_keeps_the_momentum) {
-  const CoupledCase given(column("periodic", 0.002, ""));
+void keeps_the_momentum(const std::string& coupling_options) {
+  const CoupledCase given(column("periodic", 0.002, coupling_options));
   GasCoupling coupling(given.gas, given.options, MPI_COMM_SELF);
   std::vector<GrainRecord> grains = cloud(5, 0.0004, 0.0014, Vec3(0.02, 0.01, 0.05));
   std::vector<Vec3> forces(grains.size(), Vec3::Zero());
@@ -98,6 +98,14 @@ TEST(Suspension, impulse_between_gas_and_a_cloud_keeps_the_momentum) {
   const Vec3 now = momentum(grains) + transit + gas_momentum(coupling);
   EXPECT_LT((now - total).norm(), 1e-9 * total.norm());
   EXPECT_LT(momentum(grains).norm(), 0.9 * total.norm());  // the gas took part of it
+}
+
+TEST(Suspension, impulse_between_gas_and_a_cloud_keeps_the_momentum) {
+  keeps_the_momentum("");
+}
+
+TEST(Suspension, viscous_stress_on_a_cloud_keeps_the_momentum) {
+  keeps_the_momentum("viscous_stress = true\n");
 }
 
 // A uniform suspension in a closed column: weight against drag B v/eps and the pressure gradient of
