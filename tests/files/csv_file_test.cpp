@@ -13,19 +13,21 @@
 namespace gasgrain {
 namespace {
 
-const std::string path = "csv_file_test.csv";
-
 class Csv : public testing::Test {
  protected:
   ~Csv() override { std::filesystem::remove(path); }
 
-  static std::string content() {
+  // One for each test: ctest runs them at the same time.
+  const std::string path =
+      std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv";
+
+  std::string content() const {
     std::ostringstream text;
     text << std::ifstream(path).rdbuf();
     return text.str();
   }
   // Rows at those times, the second column being its square.
-  static void write(std::initializer_list<double> times, std::optional<double> from = {}) {
+  void write(std::initializer_list<double> times, std::optional<double> from = {}) const {
     CsvFile file(path, {"time_s", "value"}, from);
     for (const double t : times) file.add(std::array{t, t * t});
   }

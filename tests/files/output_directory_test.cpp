@@ -10,8 +10,11 @@
 namespace gasgrain {
 namespace {
 
+// One for each test and number of ranks: ctest may run them at the same time.
 std::string directory() {
-  return testing::TempDir() + "gasgrain_output_directory/of/a/run";
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  return testing::TempDir() + "gasgrain_output_directory/of/a/run_" + std::to_string(ranks);
 }
 
 TEST(OutputDirectory, is_made_and_held_by_one_run_at_a_time) {
