@@ -24,6 +24,7 @@
 #include "liggghts_plugins/contact_settings.hpp"
 #include "liggghts_plugins/grain_size_error.hpp"
 #include "liggghts_plugins/pair_gran_cgm.hpp"
+#include "liggghts_plugins/scene_errors.hpp"
 
 namespace gasgrain::plugins {
 
@@ -197,6 +198,19 @@ std::string gap_text(const Stiffest& contact, double gap) {
   return lines + "  * outside of what was measured\n";
 }
 
+std::string errors_text(LAMMPS& lmp) {
+  const double n = nearest_measured_exponent(pair_settings(lmp)->stiffness_exponent.value);
+  std::string lines = text(
+      "Measured errors of n = %g against l = 1, root mean square of all quantities /%%:\n"
+      "  %-50s%8s%8s%8s%20s\n",
+      n, "scene (sizes in originals)", "l = 2", "l = 3", "l = 4", "scatter of l = 1");
+  for (const SceneError& row : scene_errors())
+    if (row.exponent == n)
+      lines += text("  %-50s%8.0f%8.0f%8.0f%20.1f\n", row.scene, 100 * row.at_2, 100 * row.at_3,
+                    100 * row.at_4, 100 * row.scatter);
+  return lines + "  what errs, and which l to take: docs/choosing.md\n";
+}
+
 }  // namespace
 
 std::string estimate_report(LAMMPS& lmp, const std::vector<MeasuredRun>& runs, double bytes,
@@ -209,6 +223,7 @@ std::string estimate_report(LAMMPS& lmp, const std::vector<MeasuredRun>& runs, d
   report += contact_text(contact, costs) + box_text(lmp, contact);
   if (context.gas) report += gas_cell_text(contact, *context.gas);
   if (context.gap > 0) report += gap_text(contact, context.gap);
+  report += errors_text(lmp);
   if (costs.grain_step == 0.0)
     return report + "No run without gas: the cost of other ratios l cannot be told apart.\n";
   return report + ratios_text(lmp, contact, costs, bytes / 1e6);

@@ -10,6 +10,10 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "bench" / "coarse_graining"))
+
+import errors  # noqa: E402
+from cases import RATIOS, SCENES, TRUTH  # noqa: E402
 from gas_case import gas_case, inlet  # noqa: E402
 from liggghts_run import (Bench, ENVIRONMENT, GASGRAIN, Grain, cgm_properties,  # noqa: E402
                           data_file, preamble)
@@ -60,7 +64,27 @@ def measured_change(scene, quantity, ratio):
     return means[0] / means[1] - 1
 
 
+def stored_errors(scene, n):
+    """Per cent at l = 2, 3, 4 of the benchmark's rows, and the scatter of the originals."""
+    groups = errors.group_rows(errors.read_rows(RESULTS, scene.name))
+    truth = groups[errors.Group(TRUTH, 1.0, "", "")]
+    found = [errors.total_error(errors.deviations(
+        groups[errors.Group(f"cgm-n{n}", float(l), "", "")], truth, scene))[0]
+        for l in sorted(RATIOS)]
+    return [100 * error for error in (*found, errors.scatter(truth, scene))]
+
+
 class Estimate(unittest.TestCase):
+    def test_errors_of_the_scenes_are_those_of_the_benchmark(self):
+        for n in (1, 3):
+            printed = estimate(bench(), script(10**5, n)).stdout
+            self.assertIn(f"Measured errors of n = {n} ", printed)
+            for scene in SCENES.values():
+                line, = (line for line in printed.splitlines() if scene.title in line)
+                self.assertTrue(line.startswith(f"  {scene.title} ({scene.size})"), line)
+                for shown, stored in zip(line.split()[-4:], stored_errors(scene, n)):
+                    self.assertAlmostEqual(float(shown), stored, delta=0.56)
+
     def test_grain_sizes_at_a_gap_change_what_the_benchmark_measured(self):
         for scene, quantity, across, column in (("hopper", "rate", 16, 2),
                                                 ("column", "runout", 20, 3)):

@@ -34,7 +34,8 @@ def measure_column(frames, scene, case, directory):
 
 
 COLUMN = Scene(
-    name="column", title="slumping column", material=sand(250), count=20736,
+    name="column", title="slumping column", size="layer 20 high",
+    material=sand(250), count=20736,
     lower=(0, 0, 0), upper=(0.8, DEPTH, 0.202), boundary="f p f",
     region="region fill block 0 0.03 0 0.012 0 0.2 units box",
     walls=(plane("floor", 2, 0.0, 1), plane("left", 0, 0.0, 1),
@@ -74,7 +75,8 @@ def measure_drum(frames, scene, case, directory):
 # Along x: stock's `shear` turns xcylinder and zcylinder, but moves the surface of a ycylinder
 # along its radius. Across the axis it takes the rate in rad/s.
 DRUM = Scene(
-    name="drum", title="rotating drum", material=sand(100, wall_friction=1.0), count=15552,
+    name="drum", title="rotating drum", size="60 across",
+    material=sand(100, wall_friction=1.0), count=15552,
     lower=(0, -0.031, -0.031), upper=(DEPTH, 0.031, 0.031), boundary="p f f",
     region="region fill cylinder x 0 0 0.0299 0 0.012 units box",
     walls=(Wall("drum",
@@ -151,7 +153,8 @@ def beverloo_rate(l):
 
 
 HOPPER = Scene(
-    name="hopper", title="hopper discharge", material=sand(250), count=20736,
+    name="hopper", title="hopper discharge", size="slot of 16",
+    material=sand(250), count=20736,
     lower=(0, 0, -0.03), upper=(WIDTH, DEPTH, 0.14), boundary="f f f",
     region=f"region fill block 0 {WIDTH} 0 {DEPTH} 0.0165 0.139 units box",
     walls=(plane("side_a", 0, 0.0, 1), plane("side_b", 0, WIDTH, -1),

@@ -40,7 +40,7 @@ def measure_bed(frames, scene, case, directory):
 
 
 BED = Scene(
-    name="bed", title="bubbling bed with a tube",
+    name="bed", title="bubbling bed with a tube", size="50 wide, tube of 10",
     material=Material(diameter=5e-4, density=2500, spring=50, restitution=0.9, friction=0.3,
                       impact_speed=0.3),
     count=20736, lower=(0, 0, 0), upper=BED_TOP, boundary="f p f",
@@ -101,7 +101,7 @@ def measure_die(frames, scene, case, directory):
 
 
 DIE = Scene(
-    name="die", title="die filling",
+    name="die", title="die filling", size="die 25 x 20",
     material=Material(diameter=2e-4, density=2500, spring=10, restitution=0.9, friction=0.3,
                       impact_speed=0.2),
     count=31104, lower=DIE_LOWER, upper=DIE_TOP, boundary="f f f",

@@ -1,6 +1,7 @@
-"""Tables and Pareto plots of the stored runs: docs/coarse_graining_errors.md and its pictures.
+"""Tables and Pareto plots of the stored runs: docs/coarse_graining_errors.md and its pictures, and
+what `gasgrain estimate` knows of them: liggghts_plugins/scene_errors.inc.
 
-    tests/bench/coarse_graining/tables [--results DIR] [--page FILE]
+    tests/bench/coarse_graining/tables [--results DIR] [--page FILE] [--errors FILE]
 """
 
 import argparse
@@ -132,6 +133,19 @@ def section(scene, results, pictures):
     return [*lines, f"![{scene.title}]({picture.name})", ""]
 
 
+def error_rows(scene, results):
+    """Of the own law: a row of scene_errors.inc per exponent n."""
+    groups = errors.group_rows(errors.read_rows(results, scene.name))
+    truth = groups[errors.Group(TRUTH, 1.0, "", "")]
+    scatter = errors.scatter(truth, scene)
+    for n in (1, 2, 3):
+        found = [errors.total_error(errors.deviations(groups[errors.Group(f"cgm-n{n}", float(l), "",
+                                                                          "")], truth, scene))[0]
+                 for l in sorted(RATIOS)]
+        shares = ", ".join(f"{error:.3f}" for error in (*found, scatter))
+        yield f'    {{"{scene.title} ({scene.size})", {n}, {shares}}},'
+
+
 PREAMBLE = """# Coarse graining: measured errors and costs
 
 Made by `tests/bench/coarse_graining/tables` from the rows in `tests/bench/coarse_graining/results/`, which `tests/bench/coarse_graining/run` makes. Deviations in per cent from runs of the originals (l = 1) with 95 % intervals; a `-` is a quantity that a run did not reach. Mixing, sides and shares are differences, not relative. The error of a row is the root mean square over its quantities. CPU seconds are of the whole process on one core, set-up included. Laws: `tests/bench/coarse_graining/laws.py`.
@@ -144,12 +158,17 @@ def main():
     parser.add_argument("--results", type=pathlib.Path, default=HERE / "results")
     parser.add_argument("--page", type=pathlib.Path,
                         default=ROOT / "docs" / "coarse_graining_errors.md")
+    parser.add_argument("--errors", type=pathlib.Path,
+                        default=ROOT / "liggghts_plugins" / "scene_errors.inc")
     given = parser.parse_args()
     lines = [PREAMBLE]
     for scene in SCENES.values():
         lines += section(scene, given.results, given.page.parent)
     given.page.write_text("\n".join(lines).rstrip() + "\n")
-    print(f"wrote {given.page}")
+    rows = [row for scene in SCENES.values() for row in error_rows(scene, given.results)]
+    given.errors.write_text("\n".join(["// Made by tests/bench/coarse_graining/tables. Shares: l = 2, 3,"
+                                       " 4; scatter of l = 1.", *rows]) + "\n")
+    print(f"wrote {given.page} and {given.errors}")
 
 
 if __name__ == "__main__":

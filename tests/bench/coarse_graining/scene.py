@@ -71,6 +71,7 @@ FACTORS = {
 class Scene:
     name: str
     title: str
+    size: str  # what is narrow in it, in diameters of the original
     material: Material
     count: int  # originals
     lower: tuple  # of the box, m
