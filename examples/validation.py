@@ -48,6 +48,7 @@ BED = (("bed_height_mean", "mean bed height", 1e3, "mm"),
 SPREAD = (("bed_height_void_0.7_mean", "at void fraction 0.7"),
           ("bed_height_void_0.9_mean", "at 0.9"), ("bed_height_solid_99_mean", "99 % of the grains"),
           ("bed_height_twice_centre_mean", "twice the centre of mass"))
+PAPER_SPRINGS = {"1": 50, "2": 100}  # N/m, by the first digit of the case; none printed for 3
 PAPER_SIMULATION = {"1-1": 91.4, "1-2": 98.0}  # mm
 INTERVALS = {"bed_height_mean": "bed_height_half_width",
              "pressure_drop_mean": "pressure_drop_half_width"}
@@ -106,12 +107,17 @@ def marked_ratio(made):
     return f"{made['l']:g}" if made["l"] == made["paper_l"] else f"**{made['l']:g}** (paper {made['paper_l']:g})"
 
 
+def marked_spring(case, spring):
+    paper = PAPER_SPRINGS.get(case[0], spring)
+    return f"{spring:g}" if spring == paper else f"**{spring:g}** (paper {paper:g})"
+
+
 def run_table(runs):
     rows = ["| case | l | grains | spring / N/m | gas cell / mm | simulated / s | DEM step / us | steps "
             "| machine | ranks | run time | commit |", "|" + "---|" * 12]
     for case, summary in runs.items():
         made = summary["provenance"]
-        rows.append(f"| {case} | {marked_ratio(made)} | {made['grains']} | {made['spring']:g} "
+        rows.append(f"| {case} | {marked_ratio(made)} | {made['grains']} | {marked_spring(case, made['spring'])} "
                     f"| {1e3 * made['gas_cell']:g} | {made['simulated']:g} | {1e6 * made['dem_step']:.3g} "
                     f"| {made['steps']} | {made['machine']} | {made['ranks']} "
                     f"| {duration(made['seconds'])} | {made['commit']} |")
@@ -195,7 +201,7 @@ def page(runs):
              "Mori, Wu and Sakai (Powder Technology, 2019): a fluidized bed with four tubes at 0.2 (1-1) and "
              "0.3 m/s (1-2), and die filling from 40 and 120 mm of CP-102 (2-1, 2-2) and NONPAREIL "
              "(3-1, 3-2). This page is made by `examples/validation.py` from `docs/validation/*.json`; "
-             "l is set bold where it is not the paper's.", "", "## Runs", "", *run_table(runs), ""]
+             "l and springs that are not the paper's are set bold.", "", "## Runs", "", *run_table(runs), ""]
     if missing:
         lines += [f"Not run yet: {', '.join(missing)}.", ""]
     lines += ["## Numbers", "", *number_table(runs), "", notes]
