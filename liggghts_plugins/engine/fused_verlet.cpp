@@ -244,7 +244,7 @@ void FusedVerlet::reneighbour() {
   comm->borders();
   timer->stamp(TIME_COMM);
   if (modify->n_pre_neighbor) modify->pre_neighbor();
-  neighbor->build();
+  search_.build_lists(*lmp, pair_list());
   for (LAMMPS_NS::Fix* mesh : plan_.insertion_meshes) mesh->pre_force(vflag);
   load_grains();
   timer->stamp(TIME_NEIGHBOR);

@@ -17,6 +17,7 @@
 
 #include "liggghts_plugins/engine/ghost_exchange.hpp"
 #include "liggghts_plugins/engine/grain_loop.hpp"
+#include "liggghts_plugins/engine/pair_search.hpp"
 #include "liggghts_plugins/engine/scene_plan.hpp"
 #include "liggghts_plugins/engine/stream_grains.hpp"
 
@@ -55,7 +56,7 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
   void write_output();
 
   // Between the atom arrays and our records.
-  const LAMMPS_NS::NeighList& pair_list() const;
+  LAMMPS_NS::NeighList& pair_list() const;
   const LAMMPS_NS::NeighList* history_list() const;
   void load_grains();
   void load_pairs();
@@ -75,6 +76,7 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
   bool lists_are_fresh_ = false;  // built for the present positions, by setup()
 
   GrainLoop loop_;
+  PairSearch search_;
   GhostExchange ghosts_;
   StreamGrains streams_;
   // Positions of local grains when the lists were built, unless LIGGGHTS keeps them, too.

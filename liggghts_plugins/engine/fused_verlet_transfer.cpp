@@ -37,7 +37,7 @@ PairCounts count_pairs(const LAMMPS_NS::NeighList& list, const LAMMPS_NS::NeighL
 
 }  // namespace
 
-const LAMMPS_NS::NeighList& FusedVerlet::pair_list() const {
+LAMMPS_NS::NeighList& FusedVerlet::pair_list() const {
   return *static_cast<const LAMMPS_NS::PairGran&>(*force->pair).list;
 }
 

@@ -39,6 +39,27 @@ int near_pairs(const GrainRecord* grains, const PairRange& pairs, double margin,
   return count;
 }
 
+int partners(const SearchColumns& columns, const SearchRuns& runs, const SearchedGrain& grain,
+             int* places) {
+  const Lanes<float> x = all_lanes<float>(grain.x), y = all_lanes<float>(grain.y),
+                     z = all_lanes<float>(grain.z), own = all_lanes<float>(grain.reach);
+  const int i = grain.index;
+  const LaneMask<float> index = {i, i, i, i, i, i, i, i};
+  int count = 0;
+  for (int run = 0; run < runs.count; ++run)
+    for (int p = runs.begin[run]; p < runs.end[run]; p += group_size) {
+      const Lanes<float> dx = load_lanes(columns.x + p) - x, dy = load_lanes(columns.y + p) - y,
+                         dz = load_lanes(columns.z + p) - z;
+      const Lanes<float> reach = load_lanes(columns.reach + p) + own;
+      LaneMask<float> other;
+      __builtin_memcpy(&other, columns.index + p, sizeof other);
+      unsigned set = bits((dx * dx + dy * dy + dz * dz <= reach * reach) & (other > index));
+      if (runs.end[run] - p < group_size) set &= (1u << (runs.end[run] - p)) - 1u;
+      count += write_places(places + count, p, set);
+    }
+  return count;
+}
+
 template <class Real>
 int touching_pairs(const GrainRecord* grains, const PairRange& pairs, unsigned char* touched,
                    SpringRecord<Real>* springs, int* places) {
@@ -132,6 +153,7 @@ void integrate(IntegrationBatch& batch) {
 extern const ContactKernel GASGRAIN_KERNEL;
 const ContactKernel GASGRAIN_KERNEL = {.name = GASGRAIN_KERNEL_NAME,
                                        .near_pairs = near_pairs,
+                                       .partners = partners,
                                        .full = {touching_pairs<double>, contact_loads<double>},
                                        .mixed = {touching_pairs<float>, contact_loads<float>},
                                        .integrate = integrate};

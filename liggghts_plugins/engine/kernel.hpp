@@ -1,4 +1,4 @@
-// The vector code of the fused engine: three loops over plain records.
+// The vector code of the fused engine: loops over plain records and columns.
 //
 // Compiled once per instruction set (kernel.cpp), chosen at run time by contact_kernel(); results
 // agree within round-off, and are the same bits in every run on the same machine.
@@ -58,6 +58,27 @@ struct IntegrationBatch {
   double gas_force[3];  // N, sum of held forces and drag so far; updated when there is drag
 };
 
+// Grains in the order of their search bins. Lengths in m, positions from a corner that is near.
+struct SearchColumns {
+  const float* x;
+  const float* y;
+  const float* z;
+  const float* reach;  // how far they reach towards a partner
+  const int* index;    // of the grain; as the others readable one group beyond the end
+};
+
+// Places in the columns in which partners are looked for, run after run.
+struct SearchRuns {
+  const int* begin;
+  const int* end;
+  int count;
+};
+
+struct SearchedGrain {
+  float x, y, z, reach;
+  int index;
+};
+
 // What depends on the precision of forces and springs.
 template <class Real>
 struct ForceKernel {
@@ -75,6 +96,9 @@ struct ContactKernel {
   // Writes the places of pairs whose surfaces are nearer than `margin` (m); returns their number.
   // `places` has room for the range and one group more.
   int (*near_pairs)(const GrainRecord*, const PairRange&, double margin, int* places);
+  // Writes the places of grains of a larger index that the grain's and their reach join; returns
+  // their number. `places` has room for all runs and one group more.
+  int (*partners)(const SearchColumns&, const SearchRuns&, const SearchedGrain&, int* places);
   ForceKernel<double> full;
   ForceKernel<float> mixed;
   // v += a kick, x += v drift for the block, and sets its loads to zero.

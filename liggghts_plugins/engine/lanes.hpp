@@ -59,6 +59,14 @@ GASGRAIN_LANES_INLINE Quad<Real> load_three(const Real* values) {
   return result;
 }
 
+// Eight values from anywhere.
+template <class Real>
+GASGRAIN_LANES_INLINE Lanes<Real> load_lanes(const Real* values) {
+  Lanes<Real> result;
+  __builtin_memcpy(&result, values, sizeof result);
+  return result;
+}
+
 template <class Real>
 GASGRAIN_LANES_INLINE void store_three(Real* values, Quad<Real> three) {
   __builtin_memcpy(values, &three, 3 * sizeof(Real));
@@ -131,17 +139,20 @@ GASGRAIN_LANES_INLINE unsigned bits(LaneMask<double> mask) {
   return result;
 #endif
 }
+GASGRAIN_LANES_INLINE unsigned bits(LaneMask<float> mask) {
+#if defined(__AVX512VL__)
+  return _mm256_movepi32_mask(reinterpret_cast<__m256i>(mask));
+#else
+  unsigned result = 0;
+  for (int lane = 0; lane < 8; ++lane) result |= mask[lane] ? 1u << lane : 0u;
+  return result;
+#endif
+}
 GASGRAIN_LANES_INLINE bool any(LaneMask<double> mask) {
   return bits(mask) != 0;
 }
 GASGRAIN_LANES_INLINE bool any(LaneMask<float> mask) {
-#if defined(__AVX512VL__)
-  return _mm256_movepi32_mask(reinterpret_cast<__m256i>(mask)) != 0;
-#else
-  int some = 0;
-  for (int lane = 0; lane < 8; ++lane) some |= mask[lane];
-  return some != 0;
-#endif
+  return bits(mask) != 0;
 }
 
 // Writes begin + lane for every lane that is set, densely; eight values may be written. Returns the
