@@ -136,6 +136,11 @@ def set_kernel(text, millimetres):
     return set_text(text, "[coupling]\n", f"[coupling]\nkernel_width = {1e-3 * millimetres:g}\n")
 
 
+def set_mapping(text, name):
+    """Case file with the mapping of grains to cells stated; None leaves it to the default."""
+    return text if name is None else set_text(text, "[coupling]\n", f'[coupling]\nmapping = "{name}"\n')
+
+
 def read_json(path):
     return json.loads(pathlib.Path(path).read_text())
 

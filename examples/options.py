@@ -78,6 +78,8 @@ def add_closures(parser, friction):
     add_number(parser, "--friction", "MU", "coefficient of friction", friction)
     add_number(parser, "--kernel", "MM", "standard deviation of the kernel, mm (default: the larger "
                "of 0.8 cells and 1.2 grains)")
+    parser.add_argument("--mapping", metavar="NAME", help="of grains to cells (default: the spline, "
+                        "smoothed to the kernel; others are not smoothed unless --kernel is given)")
     parser.add_argument("--drag", default="gidaspow", metavar="NAME",
                         help="drag closure (default %(default)s)")
 

@@ -89,7 +89,7 @@ def case_text(case, chosen, exchange):
                      ("cells = [20, 20, 40]", f"cells = {cells}"),
                      ('drag = "gidaspow"', f'drag = "{chosen.drag}"')):
         text = common.set_text(text, old, new)
-    text = common.set_kernel(text, chosen.kernel)
+    text = common.set_mapping(common.set_kernel(text, chosen.kernel), chosen.mapping)
     text = common.set_key(text, "exchange_interval", exchange)
     return common.set_key(text, "largest_step", chosen.gas_step)
 

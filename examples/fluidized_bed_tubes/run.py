@@ -87,7 +87,7 @@ def case_text(chosen, exchange):
     cells = [max(1, round(1e3 * length / chosen.cell)) for length in SIZE]
     case = common.set_text(case, "cells = [40, 8, 160]", f"cells = {cells}")
     case = common.set_text(case, 'drag = "gidaspow"', f'drag = "{chosen.drag}"')
-    case = common.set_kernel(case, chosen.kernel)
+    case = common.set_mapping(common.set_kernel(case, chosen.kernel), chosen.mapping)
     for number, (x, z) in enumerate(plot.tube_axes(chosen.tubes), 1):
         old = plot.tube_axes(plot.TUBES)[number - 1]
         case = common.set_text(case, f'"tube{number}"\ncylinder = {{point = [{old[0]:.3f}, 0.005, {old[1]:.3f}]',

@@ -30,6 +30,7 @@ def variants(chosen):
         "base": [],
         "narrow kernel": ["--kernel", f"{0.52 * kernel:.3g}"],
         "wide kernel": ["--kernel", f"{1.6 * kernel:.3g}"],
+        "exact overlap": ["--mapping", "exact"],
         "finer cells": ["--cell", f"{chosen.cell / 1.5:.5g}", "--kernel", f"{kernel:.3g}"],
         "stiffer spring": ["--spring", "2.5"],
         "less friction": ["--friction", "0.1"],
