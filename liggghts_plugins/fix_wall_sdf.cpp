@@ -232,6 +232,7 @@ void FixWallSdf::pre_neighbor() {
     }
   }
   springs_ = std::move(springs);
+  local_walls_.assign(wall_.has_local_walls() ? candidates_.size() : 1, LocalWalls());
 }
 
 void FixWallSdf::post_force(int) {
@@ -266,7 +267,8 @@ void FixWallSdf::apply_contacts(const TangentialStep& step) {
                             .position = ConstColumn(atom->x[i]),
                             .velocity = ConstColumn(atom->v[i]),
                             .spin = ConstColumn(atom->omega[i])};
-    const WallTouch touch = wall_.touch<tangential>(grain, springs_[c], step, load_);
+    const WallTouch touch =
+        wall_.touch<tangential>(grain, local_walls(c), springs_[c], step, load_);
     if (!touch.touches) continue;
     Column(atom->f[i]) += touch.force;
     Column(atom->torque[i]) += touch.torque;
@@ -372,6 +374,7 @@ void FixWallSdf::restart(char* buffer) {
 
 double FixWallSdf::memory_usage() {
   return static_cast<double>(springs_.capacity() * sizeof(Vec3) +
+                             local_walls_.capacity() * sizeof(LocalWalls) +
                              (candidates_.capacity() + place_.capacity()) * sizeof(int));
 }
 

@@ -85,6 +85,8 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   double fastest_sweep() const;
   const std::vector<int>& candidates() const { return candidates_; }  // ascending local indices
   std::vector<Vec3>& springs() { return springs_; }                   // tangential, of these, m
+  // Around candidate c; one for all where none are remembered.
+  LocalWalls& local_walls(std::size_t c) { return local_walls_[wall_.has_local_walls() ? c : 0]; }
 
   // Makes `load` that of the present step; not in the set-up of a run.
   void record_step(const WallLoad& load);
@@ -111,7 +113,8 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
 
   std::vector<int> candidates_;  // local atoms that may touch until the next reneighbouring
   std::vector<Vec3> springs_;    // tangential springs of the candidates, m; then of newcomers
-  std::vector<int> place_;       // of an atom's spring in springs_; -1: none
+  std::vector<LocalWalls> local_walls_;  // around the candidates
+  std::vector<int> place_;               // of an atom's spring in springs_; -1: none
   WallLoad load_;
   std::array<double, 8> totals_{};  // over all ranks
   bool totals_valid_ = false;

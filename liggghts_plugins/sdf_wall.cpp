@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
+
+#include "coupling/shared/near_surfaces.hpp"
 
 namespace gasgrain::plugins {
 
@@ -13,15 +16,17 @@ namespace {
 // surfaces).
 constexpr double smallest_gradient = 1e-3;
 
-// By how much an interpolated field may exceed the distance where it has a kink, in radii of the
-// grain: 0.05 spacings of a quarter of the radius. So far out several contacts are looked for.
-constexpr double excess_at_kinks = 0.0125;
-
 bool has_normal(const DistanceSample& wall) {
   return wall.gradient.squaredNorm() > smallest_gradient * smallest_gradient;
 }
 
 }  // namespace
+
+SdfWall::SdfWall(Body body, int wall_type)
+    : body_(std::move(body)),
+      wall_type_(wall_type),
+      several_(body_.shape->has_several_contacts()),
+      steepest_(body_.shape->steepest_gradient()) {}
 
 void SdfWall::set_time(double time, double duration) {
   time_ = time;
@@ -39,14 +44,8 @@ void SdfWall::carry(const Carriage& carriage) {
   carried_sweep_ = carriage.sweep;
 }
 
-DistanceSample SdfWall::sample(const Vec3& x) const {
-  if (!sweeps()) return body_.shape->sample(x);
-  const DistanceSample at_rest = body_.shape->sample(pose_.to_body(x));
-  return {at_rest.distance, pose_.rotation * at_rest.gradient};
-}
-
 double SdfWall::distance(const Vec3& x) const {
-  return body_.shape->distance(sweeps() ? pose_.to_body(x) : x);
+  return body_.shape->distance(in_body(x));
 }
 
 Vec3 SdfWall::velocity_at(const Vec3& x) const {
@@ -64,64 +63,65 @@ double SdfWall::fastest_sweep(const Vec3& lower, const Vec3& upper) const {
   return motion.velocity.norm() + swing + std::abs(motion.rate) * arm;
 }
 
-NearSurfaces SdfWall::contacts_of(const GrainAtWall& grain, const DistanceSample& nearest) const {
-  if (!sweeps()) return ball_contacts(*body_.shape, nearest, grain.position, grain.radius);
-  const Mat3& rotation = pose_.rotation;
-  NearSurfaces walls =
-      ball_contacts(*body_.shape, {nearest.distance, rotation.transpose() * nearest.gradient},
-                    pose_.to_body(grain.position), grain.radius);
-  for (int n = 0; n < walls.count; ++n)
-    walls.surface[n].gradient = rotation * walls.surface[n].gradient;
-  return walls;
+// `way`: m, that the grain can go before it touches, when it does not.
+SdfWall::Contacts SdfWall::find_contacts(const GrainAtWall& grain, LocalWalls& walls,
+                                         double& way) const {
+  Contacts contacts;
+  const Vec3 x = in_body(grain.position);
+  const auto add = [&](const DistanceSample& wall) {
+    if (wall.distance < grain.radius) {
+      if (has_normal(wall)) contacts.wall[contacts.count++] = in_world(wall);
+    } else {
+      way = std::min(way, (wall.distance - grain.radius) / steepest_);
+    }
+  };
+  if (!several_) {
+    way = std::numeric_limits<double>::infinity();
+    add(body_.shape->sample(x));
+    return contacts;
+  }
+  walls.come_to(*body_.shape, x, grain.radius);
+  way = walls.way_left(x);
+  for (int n = 0; n < walls.count(); ++n) add(walls.seen_from(x, n));
+  return contacts;
 }
 
 template <TangentialModel tangential>
-WallTouch SdfWall::touch(const GrainAtWall& grain, Vec3& displacement, const TangentialStep& step,
-                         WallLoad& load) {
+WallTouch SdfWall::touch(const GrainAtWall& grain, LocalWalls& walls, Vec3& displacement,
+                         const TangentialStep& step, WallLoad& load) {
   WallTouch result;
-  const DistanceSample nearest = sample(grain.position);
-  const bool several = body_.shape->has_several_contacts();
-  result.gap = nearest.distance - grain.radius - (several ? excess_at_kinks * grain.radius : 0.0);
-  if (result.gap >= 0 || !(several || has_normal(nearest))) {
+  const Contacts contacts = find_contacts(grain, walls, result.way);
+  if (contacts.count > 1 || (contacts.count == 1 && edge_springs(grain.tag))) {
+    touch_edge<tangential>(grain, contacts, displacement, step, result, load);
+  } else if (contacts.count == 1) {
+    add_contact<tangential>(grain, contacts.wall[0], displacement, step, result, load);
+  } else {
     displacement.setZero();
     forget(grain.tag);
     return result;
   }
   result.touches = true;
-  if (!several) {
-    add_contact<tangential>(grain, nearest, displacement, step, result, load);
-    return result;
-  }
-  const NearSurfaces walls = contacts_of(grain, nearest);
-  if (walls.count > 1 || edge_springs(grain.tag)) {
-    touch_edge<tangential>(grain, walls, displacement, step, result, load);
-  } else if (walls.count == 1 && has_normal(walls.surface[0])) {
-    add_contact<tangential>(grain, walls.surface[0], displacement, step, result, load);
-  } else {
-    displacement.setZero();
-  }
   return result;
 }
 
 // Springs of the last step go to the contacts with the nearest normals.
 template <TangentialModel tangential>
-void SdfWall::touch_edge(const GrainAtWall& grain, const NearSurfaces& walls, Vec3& displacement,
+void SdfWall::touch_edge(const GrainAtWall& grain, const Contacts& contacts, Vec3& displacement,
                          const TangentialStep& step, WallTouch& touch, WallLoad& load) {
   std::vector<EdgeSpring> before;
   if (const auto* known = edge_springs(grain.tag))
     before = *known;
-  else if (walls.count > 0)
-    before.push_back({walls.surface[0].gradient.normalized(), displacement});
+  else
+    before.push_back({contacts.wall[0].gradient.normalized(), displacement});
   std::vector<EdgeSpring> now;
-  for (int w = 0; w < walls.count; ++w) {
-    if (!has_normal(walls.surface[w])) continue;
-    now.push_back({walls.surface[w].gradient.normalized(), Vec3::Zero()});
+  for (int w = 0; w < contacts.count; ++w) {
+    now.push_back({contacts.wall[w].gradient.normalized(), Vec3::Zero()});
     for (const EdgeSpring& old : before)
       if ((turn_ * old.normal).dot(now.back().normal) > same_normal)
         now.back().displacement = old.displacement;
-    add_contact<tangential>(grain, walls.surface[w], now.back().displacement, step, touch, load);
+    add_contact<tangential>(grain, contacts.wall[w], now.back().displacement, step, touch, load);
   }
-  displacement = now.size() == 1 ? now[0].displacement : Vec3(Vec3::Zero());
+  displacement = now.size() == 1 ? now[0].displacement : Vec3::Zero();
   if (now.size() > 1)
     edge_springs_[grain.tag] = std::move(now);
   else
@@ -177,11 +177,12 @@ void SdfWall::set_edge_springs(int tag, std::vector<EdgeSpring> springs) {
     edge_springs_[tag] = std::move(springs);
 }
 
-template WallTouch SdfWall::touch<TangentialModel::off>(const GrainAtWall&, Vec3&,
+template WallTouch SdfWall::touch<TangentialModel::off>(const GrainAtWall&, LocalWalls&, Vec3&,
                                                         const TangentialStep&, WallLoad&);
-template WallTouch SdfWall::touch<TangentialModel::no_history>(const GrainAtWall&, Vec3&,
-                                                               const TangentialStep&, WallLoad&);
-template WallTouch SdfWall::touch<TangentialModel::history>(const GrainAtWall&, Vec3&,
+template WallTouch SdfWall::touch<TangentialModel::no_history>(const GrainAtWall&, LocalWalls&,
+                                                               Vec3&, const TangentialStep&,
+                                                               WallLoad&);
+template WallTouch SdfWall::touch<TangentialModel::history>(const GrainAtWall&, LocalWalls&, Vec3&,
                                                             const TangentialStep&, WallLoad&);
 
 }  // namespace gasgrain::plugins

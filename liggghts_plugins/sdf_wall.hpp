@@ -4,17 +4,20 @@
 //
 // (eq 17-20) with the exact gradient of the field as it is stored, so that the elastic force is the
 // gradient of the potential 1/2 k (r - phi)^2 and conserves energy. At concave edges of one body a
-// grain has a contact with each wall (near_surfaces.hpp), each with its own spring.
+// grain has a contact with each wall, each with its own spring. Where a body can have such edges,
+// the walls around a grain are looked for once and remembered while it moves a little way
+// (local_walls.hpp); else phi is that of the shape in every step.
 //
 // A wall that moves is looked at in its own frame; its velocity at the contact point enters the
 // dashpot and the slip, and the tangential spring turns with it.
 #pragma once
 
+#include <array>
 #include <unordered_map>
 #include <vector>
 
 #include "coupling/shared/body.hpp"
-#include "coupling/shared/near_surfaces.hpp"
+#include "coupling/shared/local_walls.hpp"
 #include "liggghts_plugins/contact_properties.hpp"
 #include "liggghts_plugins/contact_settings.hpp"
 #include "liggghts_plugins/contact_statistics.hpp"
@@ -43,8 +46,8 @@ struct GrainAtWall {
 
 struct WallTouch {
   bool touches = false;
-  double gap = 0.0;            // m, distance of the surfaces, when it does not touch
-  Vec3 force = Vec3::Zero();   // on the grain, N
+  double way = 0.0;           // m, that grain and wall can go before they may, if they do not touch
+  Vec3 force = Vec3::Zero();  // on the grain, N
   Vec3 torque = Vec3::Zero();  // on the grain, N m
 };
 
@@ -64,7 +67,7 @@ struct Carriage {
 class SdfWall {
  public:
   SdfWall() = default;
-  SdfWall(Body body, int wall_type) : body_(std::move(body)), wall_type_(wall_type) {}
+  SdfWall(Body body, int wall_type);
 
   void set_contacts(const GrainContactTable& contacts) { contacts_ = contacts; }
   const GrainContactTable& contacts() const { return contacts_; }
@@ -81,11 +84,14 @@ class SdfWall {
   double fastest_sweep(const Vec3& lower, const Vec3& upper) const;
   bool sweeps() const { return carried_ || body_.motion.sweeps(); }
 
-  // The contacts of a grain: force on it, and their sum added to `load`. `displacement` is the
-  // spring of a single contact, m; those of several are kept here, by the grain's tag.
+  // Whether the walls around each grain are to be remembered.
+  bool has_local_walls() const { return several_; }
+  // The contacts of a grain: force on it, and their sum added to `load`. `walls` are remembered
+  // from the grain's last step. `displacement` is the spring of a single contact, m; those of
+  // several are kept here, by the grain's tag.
   template <TangentialModel tangential>
-  WallTouch touch(const GrainAtWall& grain, Vec3& displacement, const TangentialStep& step,
-                  WallLoad& load);
+  WallTouch touch(const GrainAtWall& grain, LocalWalls& walls, Vec3& displacement,
+                  const TangentialStep& step, WallLoad& load);
 
   // Springs of a grain with several contacts, or nullptr.
   const std::vector<EdgeSpring>* edge_springs(int tag) const;
@@ -95,18 +101,28 @@ class SdfWall {
   }
 
  private:
-  DistanceSample sample(const Vec3& x) const;
+  struct Contacts {
+    int count = 0;
+    std::array<DistanceSample, NearSurfaces::most> wall;
+  };
+
+  Vec3 in_body(const Vec3& x) const { return sweeps() ? pose_.to_body(x) : x; }
+  DistanceSample in_world(const DistanceSample& wall) const {
+    return sweeps() ? DistanceSample{wall.distance, pose_.rotation * wall.gradient} : wall;
+  }
   Vec3 velocity_at(const Vec3& x) const;
+  Contacts find_contacts(const GrainAtWall& grain, LocalWalls& walls, double& way) const;
   template <TangentialModel tangential>
   void add_contact(const GrainAtWall& grain, const DistanceSample& wall, Vec3& displacement,
                    const TangentialStep& step, WallTouch& touch, WallLoad& load) const;
   template <TangentialModel tangential>
-  void touch_edge(const GrainAtWall& grain, const NearSurfaces& walls, Vec3& displacement,
+  void touch_edge(const GrainAtWall& grain, const Contacts& contacts, Vec3& displacement,
                   const TangentialStep& step, WallTouch& touch, WallLoad& load);
-  NearSurfaces contacts_of(const GrainAtWall& grain, const DistanceSample& nearest) const;
 
   Body body_;
   int wall_type_ = 0;
+  bool several_ = false;   // contacts of one grain are possible
+  double steepest_ = 1.0;  // gradient of the body's distance
   GrainContactTable contacts_;
   std::unordered_map<int, std::vector<EdgeSpring>> edge_springs_;  // never iterated over
 

@@ -19,6 +19,7 @@
 #include "coupling/shared/config_table.hpp"
 #include "coupling/shared/error.hpp"
 #include "coupling/shared/feature_size.hpp"
+#include "coupling/shared/known_distance.hpp"
 #include "coupling/shared/motion.hpp"
 #include "coupling/shared/primitives.hpp"
 #include "coupling/shared/sampling.hpp"
@@ -123,16 +124,50 @@ void print_field(const SampledDistance& field) {
               all * SampledDistance::samples_per_brick * sizeof(float) / 1e6);
 }
 
+// The part of a shape within a box.
+class PartInBox final : public SignedDistance, public DistanceFromKnown {
+ public:
+  PartInBox(const SignedDistance& shape, const Eigen::AlignedBox3d& box)
+      : shape_(shape),
+        box_(make_shape(Box{.center = box.center(), .half_size = 0.5 * box.sizes()})) {}
+  double distance(const Vec3& x) const override {
+    return std::max(shape_.distance(x), box_->distance(x));
+  }
+  double distance_near(const Vec3& x, const KnownDistance& known) const override {
+    const bool is_of_shape = known.distance > box_->distance(known.place);
+    return std::max(is_of_shape ? gasgrain::distance_near(shape_, x, known) : shape_.distance(x),
+                    box_->distance(x));
+  }
+  DistanceSample sample(const Vec3& x) const override {
+    const DistanceSample own = shape_.sample(x), box = box_->sample(x);
+    return own.distance > box.distance ? own : box;
+  }
+
+ private:
+  const SignedDistance& shape_;
+  Shape box_;
+};
+
+// How often cells at the surface may be halved, at most `wanted`, so that the volume of large
+// bodies does not take longer than their samples: a brick has about 16 such cells.
+int halvings_of_cells(const SampledDistance& field, int wanted) {
+  constexpr double most_looks = 4e6;
+  double looks = 16.0 * static_cast<double>(field.data().stored_bricks());
+  int halvings = 0;
+  while (halvings < wanted && (looks *= 8) <= most_looks) ++halvings;
+  return halvings;
+}
+
 // Volume of the solid in the box of the field; cells of the field are halved `halvings` times.
-double volume_in_box(const Shape& shape, const SampledDistance& field, int halvings) {
+double volume_in_box(const SignedDistance& shape, const SampledDistance& field, int halvings,
+                     int threads) {
   constexpr int cubes = 3;  // halvings from the largest cube to a cell
-  const Vec3 size = field.upper() - field.lower();
+  const Eigen::AlignedBox3d box(field.lower(), field.upper());
   const double edge = field.data().spacing * (1 << cubes);
-  VolumeGrid grid{field.lower(), edge, {}, cubes + halvings};
-  for (int d = 0; d < 3; ++d) grid.cells[d] = static_cast<int>(std::ceil(size[d] / edge - 1e-9));
-  const Shape box =
-      make_shape(Box{.center = 0.5 * (field.lower() + field.upper()), .half_size = 0.5 * size});
-  return solid_volume(*make_intersection({shape, box}), grid);
+  VolumeGrid grid{box.min(), edge, {}, cubes + halvings};
+  for (int d = 0; d < 3; ++d)
+    grid.cells[d] = static_cast<int>(std::ceil(box.sizes()[d] / edge - 1e-9));
+  return solid_volume(PartInBox(shape, box), grid, threads);
 }
 
 void print_features(const SignedDistance& shape, const SampledDistance& field) {
@@ -183,8 +218,10 @@ int write_field(const Options& options) {
 
   std::printf("written        %s, from %s\n", options.output.c_str(), subject.name.c_str());
   print_field(*field);
-  const double volume = volume_in_box(field, *field, 1);
-  const double finer = volume_in_box(subject.shape, *field, 2);
+  const int halvings = halvings_of_cells(*field, 2);
+  const double volume = volume_in_box(*field, *field, std::min(halvings, 1), options.threads);
+  const double finer =
+      volume_in_box(*subject.shape, *field, std::max(halvings, 1), options.threads);
   std::printf("solid volume   %.8g m^3 in the box, %+.2e of a finer estimate (%.8g m^3)\n", volume,
               (volume - finer) / finer, finer);
   print_features(*subject.shape, *field);
@@ -196,7 +233,8 @@ int inspect(const Options& options) {
   const auto field = std::make_shared<const SampledDistance>(read_sdf(options.inspect));
   std::printf("file           %s\n", options.inspect.c_str());
   print_field(*field);
-  std::printf("solid volume   %.8g m^3 in the box\n", volume_in_box(field, *field, 1));
+  std::printf("solid volume   %.8g m^3 in the box\n",
+              volume_in_box(*field, *field, halvings_of_cells(*field, 1), options.threads));
   print_features(*field, *field);
   draw(options, *field);
   check_closed(*field, options.inspect);

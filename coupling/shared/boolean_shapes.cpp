@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "coupling/shared/error.hpp"
+#include "coupling/shared/known_distance.hpp"
 #include "coupling/shared/measured_shape.hpp"
+#include "coupling/shared/near_surfaces.hpp"
 
 namespace gasgrain {
 
@@ -59,13 +61,13 @@ double resolved_range(const std::vector<Shape>& parts) {
 // covered by another part (union) nor cut away by it (intersection). The nearest one is always
 // kept.
 void add_surfaces_of_parts(const SignedDistance& whole, const std::vector<Shape>& parts,
-                           const Vec3& x, double reach, NearSurfaces& found) {
+                           const Vec3& x, double reach, NearWalls& found) {
   constexpr double tolerance = 1e-3;  // of the reach
-  NearSurfaces all;
-  for (const Shape& part : parts) part->add_near_surfaces(x, reach, all);
+  NearWalls all;
+  for (const Shape& part : parts) add_near_walls(*part, x, reach, all);
   const int before = found.count;
   for (int n = 0; n < all.count; ++n) {
-    const DistanceSample& own = all.surface[n];
+    const NearWall& own = all.surface[n];
     const double gradient = own.gradient.squaredNorm();
     if (gradient == 0.0) continue;
     const Vec3 foot = x - own.distance / gradient * own.gradient;
@@ -73,7 +75,7 @@ void add_surfaces_of_parts(const SignedDistance& whole, const std::vector<Shape>
   }
   if (found.count > before) return;
   const DistanceSample nearest = whole.sample(x);
-  if (std::abs(nearest.distance) < reach) found.add(nearest);
+  if (std::abs(nearest.distance) < reach) found.add(NearWall(nearest));
 }
 
 bool has_several_contacts(const std::vector<Shape>& parts) {
@@ -89,20 +91,24 @@ bool has_several_contacts(const Complement& solid) {
   return solid.shape->has_several_contacts();
 }
 
-void add_near_surfaces(const SignedDistance& whole, const Union& solid, const Vec3& x, double reach,
-                       NearSurfaces& found) {
+void add_walls_of(const SignedDistance& whole, const Union& solid, const Vec3& x, double reach,
+                  NearWalls& found) {
   add_surfaces_of_parts(whole, solid.parts, x, reach, found);
 }
-void add_near_surfaces(const SignedDistance& whole, const Intersection& solid, const Vec3& x,
-                       double reach, NearSurfaces& found) {
+void add_walls_of(const SignedDistance& whole, const Intersection& solid, const Vec3& x,
+                  double reach, NearWalls& found) {
   add_surfaces_of_parts(whole, solid.parts, x, reach, found);
 }
-void add_near_surfaces(const SignedDistance&, const Complement& solid, const Vec3& x, double reach,
-                       NearSurfaces& found) {
+void add_walls_of(const SignedDistance&, const Complement& solid, const Vec3& x, double reach,
+                  NearWalls& found) {
   const int before = found.count;
-  solid.shape->add_near_surfaces(x, reach, found);
-  for (int n = before; n < found.count; ++n)
-    found.surface[n] = {-found.surface[n].distance, -found.surface[n].gradient};
+  add_near_walls(*solid.shape, x, reach, found);
+  for (int n = before; n < found.count; ++n) {
+    NearWall& wall = found.surface[n];
+    wall.distance = -wall.distance;
+    wall.gradient = -wall.gradient;
+    if (wall.way > 0) wall.curvature = -wall.curvature;
+  }
 }
 
 double steepest_gradient(const std::vector<Shape>& parts) {
@@ -146,7 +152,7 @@ double resolved_range(const Complement& solid) {
 }
 
 template <class Solid>
-class BooleanShape final : public MeasuredShape<Solid> {
+class BooleanShape : public MeasuredShape<Solid>, public CurvedDistance {
  public:
   using MeasuredShape<Solid>::MeasuredShape;
   double resolved_range() const override { return gasgrain::resolved_range(this->solid_); }
@@ -155,9 +161,20 @@ class BooleanShape final : public MeasuredShape<Solid> {
     return gasgrain::has_several_contacts(this->solid_);
   }
   void add_near_surfaces(const Vec3& x, double reach, NearSurfaces& found) const override {
-    gasgrain::add_near_surfaces(*this, this->solid_, x, reach, found);
+    add_without_curvature(*this, x, reach, found);
+  }
+  void add_near_walls(const Vec3& x, double reach, NearWalls& found) const override {
+    add_walls_of(*this, this->solid_, x, reach, found);
   }
   std::string remarks() const override { return gasgrain::remarks(this->solid_); }
+};
+
+class ComplementShape final : public BooleanShape<Complement>, public DistanceFromKnown {
+ public:
+  using BooleanShape::BooleanShape;
+  double distance_near(const Vec3& x, const KnownDistance& known) const override {
+    return -gasgrain::distance_near(*solid_.shape, x, {known.place, -known.distance});
+  }
 };
 
 }  // namespace
@@ -177,7 +194,7 @@ Shape make_difference(Shape base, Shape removed) {
 }
 
 Shape make_complement(Shape shape) {
-  return std::make_shared<BooleanShape<Complement>>(Complement{std::move(shape)});
+  return std::make_shared<ComplementShape>(Complement{std::move(shape)});
 }
 
 }  // namespace gasgrain

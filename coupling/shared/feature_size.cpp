@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "coupling/shared/known_distance.hpp"
+
 namespace gasgrain {
 
 namespace {
@@ -18,11 +20,15 @@ constexpr double left_out = 1e-3;
 // Length of the ray from x along n within the solid (sign -1) or the gas (sign 1).
 double free_length(const SignedDistance& shape, const Vec3& x, const Vec3& n, double sign,
                    double spacing, double length) {
+  constexpr double whole_step = 0.99;  // of |phi|: beyond it the side would not be known
   double way = 0.5 * spacing;
+  KnownDistance last{x, 0.0};
   while (way < length) {
-    const double phi = sign * shape.distance(x + way * n);
+    const Vec3 place = x + way * n;
+    last = {place, distance_near(shape, place, last)};
+    const double phi = sign * last.distance;
     if (phi <= 0) return way;
-    way += std::max(phi, 0.02 * spacing);
+    way += std::max(whole_step * phi, 0.02 * spacing);
   }
   return length;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "coupling/shared/error.hpp"
+#include "coupling/shared/known_distance.hpp"
 #include "coupling/shared/measured_shape.hpp"
 #include "coupling/shared/triangle_tree.hpp"
 
@@ -62,10 +63,21 @@ DistanceSample measure(const Sheet& sheet, const Vec3& x) {
   return result;
 }
 
-class MeshShape final : public MeasuredShape<MeshUnion> {
+class MeshShape final : public MeasuredShape<MeshUnion>, public DistanceFromKnown {
  public:
   MeshShape(MeshUnion solid, std::string remarks)
       : MeasuredShape(std::move(solid)), remarks_(std::move(remarks)) {}
+  // A place is on the same side of all surfaces as a known one from which none can be reached, and
+  // the winding numbers, which cost most, need not be asked for.
+  double distance_near(const Vec3& x, const KnownDistance& known) const override {
+    const double way = (x - known.place).norm(), from = std::abs(known.distance);
+    const bool within_parts = known.distance < 0 && solid_.solids.size() > 1;
+    if (way >= from || within_parts) return distance(x);
+    constexpr double rounding = 1 + 1e-9;
+    double square = (from + way) * (from + way) * rounding;
+    for (const Tree& solid : solid_.solids) square = solid->nearest(x, square).square_distance;
+    return std::copysign(std::sqrt(square), known.distance);
+  }
   std::string remarks() const override { return remarks_; }
 
  private:

@@ -1,7 +1,7 @@
 // Storage checks, interpolation, and the continuation outside of the sampled box.
 //
 // Interpolation gathers the samples first, from one brick (which is frequent) or from up to eight,
-// and then contracts them direction by direction, value and derivative together.
+// and then sums them direction by direction, value and derivatives together.
 #include "coupling/shared/sampled_distance.hpp"
 
 #include <cmath>
@@ -66,32 +66,6 @@ void check(const BrickSamples& data) {
           "a sample is not finite");
 }
 
-// Weights of `count` samples and their derivatives at `f`: place within the cell (linear, 0..1) or
-// from the middle sample (quadratic, -1/2..1/2).
-template <int count>
-void set_weights(double f, double* weight, double* slope) {
-  if constexpr (count == 2) {
-    weight[0] = 1 - f;
-    weight[1] = f;
-    slope[0] = -1;
-    slope[1] = 1;
-  } else {
-    weight[0] = 0.5 * (0.5 - f) * (0.5 - f);
-    weight[1] = 0.75 - f * f;
-    weight[2] = 0.5 * (0.5 + f) * (0.5 + f);
-    slope[0] = f - 0.5;
-    slope[1] = -2 * f;
-    slope[2] = f + 0.5;
-  }
-}
-
-template <int count>
-double dot(const double* a, const double* b) {
-  double sum = 0.0;
-  for (int n = 0; n < count; ++n) sum += a[n] * b[n];
-  return sum;
-}
-
 }  // namespace
 
 Index3 BrickSamples::blocks() const {
@@ -139,8 +113,7 @@ Vec3 SampledDistance::position(const Index3& brick, const Index3& point) const {
 
 DistanceSample SampledDistance::sample(const Vec3& x) const {
   const Vec3 position = (x - data_.lower) * inverse_spacing_;
-  if ((position.array() >= 0.0).all() && (position.array() <= cells_.array()).all())
-    return sample_inside(position);
+  if (is_inside(position)) return sample_inside(position);
   return sample_outside(x);
 }
 
@@ -153,7 +126,7 @@ DistanceSample SampledDistance::sample_inside(const Vec3& position) const {
 // Copies count^3 samples beginning with sample `first`; false when one of them is not stored.
 template <int count, class Sample>
 bool SampledDistance::gather(const Index3& first, const std::vector<Sample>& samples,
-                             double* values) const {
+                             SampleStencil<count>& stencil) const {
   const Index3 home{first[0] / brick_points, first[1] / brick_points, first[2] / brick_points};
   Index3 at;          // within the first brick
   Index3 in_first{};  // how many samples of a row lie in it
@@ -167,23 +140,19 @@ bool SampledDistance::gather(const Index3& first, const std::vector<Sample>& sam
     const Sample* own = samples.data() + static_cast<std::size_t>(slot) * samples_per_brick +
                         at[2] * brick_layer + at[1] * brick_row + at[0];
     for (int k = 0; k < count; ++k)
-      for (int j = 0; j < count; ++j)
-        for (int i = 0; i < count; ++i)
-          values[(k * count + j) * count + i] = own[k * brick_layer + j * brick_row + i];
+      for (int j = 0; j < count; ++j) {
+        const Sample* row = own + k * brick_layer + j * brick_row;
+        if constexpr (count == 2)
+          stencil.rows[k][j] << row[0], row[1], 0, 0;
+        else
+          stencil.rows[k][j] << row[0], row[1], row[2], 0;
+      }
     return true;
   }
-  return gather_from_several<count>(home, at, in_first, samples, values);
-}
-
-// The same from up to two bricks in each direction.
-template <int count, class Sample>
-bool SampledDistance::gather_from_several(const Index3& home, const Index3& at,
-                                          const Index3& in_first,
-                                          const std::vector<Sample>& samples,
-                                          double* values) const {
-  for (int part = 0; part < 8; ++part) {
+  for (auto& layer : stencil.rows) layer.fill(Eigen::Array4d::Zero());
+  for (int part = 0; part < 8; ++part) {  // from up to two bricks in each direction
     const Index3 next{part & 1, part >> 1 & 1, part >> 2};
-    Index3 begin, end, shift;  // within `values`; from there into the brick
+    Index3 begin, end, shift;  // within the stencil; from there into the brick
     bool any = true;
     for (int d = 0; d < 3; ++d) {
       begin[d] = next[d] ? in_first[d] : 0;
@@ -198,14 +167,13 @@ bool SampledDistance::gather_from_several(const Index3& home, const Index3& at,
     for (int k = begin[2]; k < end[2]; ++k)
       for (int j = begin[1]; j < end[1]; ++j)
         for (int i = begin[0]; i < end[0]; ++i)
-          values[(k * count + j) * count + i] =
+          stencil.rows[k][j][i] =
               own[(k + shift[2]) * brick_layer + (j + shift[1]) * brick_row + i + shift[0]];
   }
   return true;
 }
 
 // A bound where not all of the samples from `first` on are stored.
-template <int count>
 DistanceSample SampledDistance::far_sample(const Index3& first) const {
   const Brick home =
       brick({first[0] / brick_points, first[1] / brick_points, first[2] / brick_points});
@@ -215,46 +183,43 @@ DistanceSample SampledDistance::far_sample(const Index3& first) const {
   return {std::copysign(data_.band, own), Vec3::Zero()};
 }
 
+// Weights and samples around `position`; false when one of them is not stored. Samples are in units
+// of sample_unit().
 template <int count>
-DistanceSample SampledDistance::interpolate(const Vec3& position) const {
-  Index3 first;
-  double weight[3][count], slope[3][count];
+bool SampledDistance::find_stencil(const Vec3& position, Index3& first,
+                                   SampleStencil<count>& stencil) const {
   for (int d = 0; d < 3; ++d) {
     if constexpr (count == 2) {
       const int cell = std::min(static_cast<int>(position[d]), static_cast<int>(cells_[d]) - 1);
       first[d] = cell + 1;
-      set_weights<count>(position[d] - cell, weight[d], slope[d]);
+      stencil.along[d] = row_weights<count>(position[d] - cell);
     } else {
-      const int middle = static_cast<int>(position[d] + 0.5);
-      first[d] = middle;
-      set_weights<count>(position[d] - middle, weight[d], slope[d]);
+      first[d] = static_cast<int>(position[d] + 0.5);
+      stencil.along[d] = row_weights<count>(position[d] - first[d]);
     }
   }
-  double values[count * count * count];
-  double unit = 1.0;
-  bool complete;
-  if (data_.quantum > 0) {
-    complete = gather<count>(first, data_.compact_samples, values);
-    unit = data_.quantum;
-  } else {
-    complete = gather<count>(first, data_.samples, values);
-  }
-  if (!complete) return far_sample<count>(first);
+  return data_.quantum > 0 ? gather<count>(first, data_.compact_samples, stencil)
+                           : gather<count>(first, data_.samples, stencil);
+}
 
-  double along_z[4][count];  // value and derivatives by x, y of each layer
-  for (int k = 0; k < count; ++k) {
-    double row[count], row_slope[count];
-    for (int j = 0; j < count; ++j) {
-      row[j] = dot<count>(weight[0], values + (k * count + j) * count);
-      row_slope[j] = dot<count>(slope[0], values + (k * count + j) * count);
-    }
-    along_z[0][k] = dot<count>(weight[1], row);
-    along_z[1][k] = dot<count>(weight[1], row_slope);
-    along_z[2][k] = dot<count>(slope[1], row);
-  }
-  const Vec3 gradient(dot<count>(weight[2], along_z[1]), dot<count>(weight[2], along_z[2]),
-                      dot<count>(slope[2], along_z[0]));
-  return {unit * dot<count>(weight[2], along_z[0]), (unit * inverse_spacing_) * gradient};
+template <int count>
+DistanceSample SampledDistance::interpolate(const Vec3& position) const {
+  Index3 first;
+  SampleStencil<count> stencil;
+  if (!find_stencil<count>(position, first, stencil)) return far_sample(first);
+  const StencilSum sum = stencil.sum();
+  return {sample_unit() * sum.value, sample_unit() * inverse_spacing_ * sum.gradient};
+}
+
+std::optional<SampledDistance::CurvedSample> SampledDistance::curved_sample(const Vec3& x) const {
+  const Vec3 position = (x - data_.lower) * inverse_spacing_;
+  Index3 first;
+  SampleStencil<3> stencil;
+  if (!is_inside(position) || !find_stencil<3>(position, first, stencil)) return std::nullopt;
+  const StencilSum sum = stencil.sum();
+  const double unit = sample_unit(), slope_unit = unit * inverse_spacing_;
+  return CurvedSample{{unit * sum.value, slope_unit * sum.gradient},
+                      slope_unit * inverse_spacing_ * stencil.curvature()};
 }
 
 // Looks at the six sides of the box: at the bounds of far bricks, else at the samples' places.

@@ -3,13 +3,11 @@
 //   phi(x) = sum over the nearest samples of weight(x) * sample,   grad phi = its derivative
 //
 // linear:    the 8 samples of x's cell; phi is continuous and reproduces the samples. Gradients
-// jump
-//            at the sides of cells.
-// quadratic: B-spline of the 27 nearest samples; phi and grad phi are continuous. What is stored
-// are
-//            its coefficients c = s - (1/8) sum of second differences of the distances s, which
-//            makes it exact for quadratic functions (quasi-interpolation; de Boor, A Practical
-//            Guide to Splines, ch. XII).
+//            jump at the sides of cells.
+// quadratic: B-spline of the 27 nearest samples; phi and grad phi are continuous. Stored are its
+//            coefficients c = s - (1/8) sum of second differences of the distances s, which makes
+//            it exact for quadratic functions (quasi-interpolation; de Boor, A Practical Guide to
+//            Splines, ch. XII).
 //
 // Either is a potential, so the force k (r - phi) grad phi does no net work on a closed path
 // (eq 18-20). Error against the distance: O(h^2 curvature) and O(h^3), O(h) at edges.
@@ -32,6 +30,8 @@
 #include <optional>
 #include <vector>
 
+#include "coupling/shared/near_surfaces.hpp"
+#include "coupling/shared/sample_stencil.hpp"
 #include "coupling/shared/signed_distance.hpp"
 
 namespace gasgrain {
@@ -60,12 +60,16 @@ struct BrickSamples {
   std::size_t stored_bricks() const;
 };
 
-class SampledDistance final : public SignedDistance {
+class SampledDistance final : public SignedDistance, public CurvedDistance {
  public:
   static constexpr int brick_points = 4;  // samples per direction and brick
   static constexpr int block_bricks = 8;  // bricks per direction and block
   static constexpr int samples_per_brick = brick_points * brick_points * brick_points;
   static constexpr int bricks_per_block = block_bricks * block_bricks * block_bricks;
+
+  struct CurvedSample : DistanceSample {
+    Mat3 curvature;  // second derivatives, 1/m
+  };
 
   // A brick: stored at `slot`, or (slot < 0) with a bound of phi.
   struct Brick {
@@ -81,7 +85,13 @@ class SampledDistance final : public SignedDistance {
   double resolved_range() const override { return data_.band; }
   double steepest_gradient() const override;
   bool has_several_contacts() const override { return true; }
-  void add_near_surfaces(const Vec3& x, double reach, NearSurfaces& found) const override;
+  void add_near_surfaces(const Vec3& x, double reach, NearSurfaces& found) const override {
+    add_without_curvature(*this, x, reach, found);
+  }
+  void add_near_walls(const Vec3& x, double reach, NearWalls& found) const override;
+
+  // Of quadratic interpolation; nothing where samples are not stored.
+  std::optional<CurvedSample> curved_sample(const Vec3& x) const;
 
   const BrickSamples& data() const { return data_; }
   Vec3 lower() const { return data_.lower; }
@@ -100,20 +110,25 @@ class SampledDistance final : public SignedDistance {
  private:
   enum class Surroundings { gas, solid, both };
 
+  NearWalls walls_around(const Vec3& x, const DistanceSample& nearest) const;
+  std::optional<NearWall> wall_below(const Vec3& x, const Vec3& at,
+                                     const DistanceSample& there) const;
   bool kink_between_cells(const Vec3& x, const DistanceSample& nearest) const;
-  NearSurfaces walls_around(const Vec3& x) const;
-  std::optional<DistanceSample> wall_below(const Vec3& x, const Vec3& at,
-                                           const DistanceSample& there) const;
+  std::optional<NearWall> wall_below_linear(const Vec3& x, Vec3 foot) const;
+
+  bool is_inside(const Vec3& position) const {
+    return (position.array() >= 0.0).all() && (position.array() <= cells_.array()).all();
+  }
+  double sample_unit() const { return data_.quantum > 0 ? data_.quantum : 1.0; }
   DistanceSample sample_inside(const Vec3& position) const;
   DistanceSample sample_outside(const Vec3& x) const;
   template <int count>
   DistanceSample interpolate(const Vec3& position) const;
-  template <int count, class Sample>
-  bool gather(const Index3& first, const std::vector<Sample>& samples, double* values) const;
-  template <int count, class Sample>
-  bool gather_from_several(const Index3& home, const Index3& at, const Index3& in_first,
-                           const std::vector<Sample>& samples, double* values) const;
   template <int count>
+  bool find_stencil(const Vec3& position, Index3& first, SampleStencil<count>& stencil) const;
+  template <int count, class Sample>
+  bool gather(const Index3& first, const std::vector<Sample>& samples,
+              SampleStencil<count>& stencil) const;
   DistanceSample far_sample(const Index3& first) const;
   void find_surroundings();
 

@@ -7,16 +7,14 @@
 // is not needed, and |phi| - R bounds phi wherever a sample of it would be used.
 #include "coupling/shared/sampling.hpp"
 
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <mutex>
 #include <sstream>
-#include <thread>
 #include <utility>
 
 #include "coupling/shared/error.hpp"
+#include "coupling/shared/known_distance.hpp"
+#include "coupling/shared/parallel_for.hpp"
 
 namespace gasgrain {
 
@@ -49,33 +47,13 @@ std::size_t count_of(const Index3& size) {
   return static_cast<std::size_t>(size[0]) * size[1] * size[2];
 }
 
-// Calls work(n) for n < count, in any order; the first exception is thrown on.
+// Calls work(n) for n < count, and tells the progress from a share `from` to a share `to`.
 template <class Work>
 void for_each_in_parallel(std::size_t count, const SamplingEffort& effort, double from, double to,
                           const Work& work) {
-  std::atomic<std::size_t> next{0};
-  std::size_t done = 0;
-  std::mutex mutex;
-  std::exception_ptr error;
-  const auto run = [&] {
-    try {
-      for (std::size_t n = next++; n < count; n = next++) {
-        work(n);
-        if (!effort.progress) continue;
-        const std::lock_guard lock(mutex);
-        effort.progress(from + (to - from) * static_cast<double>(++done) / count);
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!error) error = std::current_exception();
-      next = count;
-    }
-  };
-  std::vector<std::thread> others;
-  for (int t = 1; t < effort.threads; ++t) others.emplace_back(run);
-  run();
-  for (std::thread& thread : others) thread.join();
-  if (error) std::rethrow_exception(error);
+  parallel_for(count, effort.threads, work, [&](std::size_t done) {
+    if (effort.progress) effort.progress(from + (to - from) * static_cast<double>(done) / count);
+  });
 }
 
 class Sampler {
@@ -202,27 +180,31 @@ class Sampler {
     }
   }
 
-  double distance_at(const Index3& brick, int i, int j, int k) const {
-    return shape_.distance(
-        position(Vec3(brick[0] * points + i, brick[1] * points + j, brick[2] * points + k)));
+  // `last`: the sample before, where it is taken over from.
+  double distance_at(const Index3& brick, const Vec3& point, KnownDistance& last) const {
+    const Vec3 place = position(Vec3(brick[0], brick[1], brick[2]) * points + point);
+    last = {place, distance_near(shape_, place, last)};
+    return last.distance;
   }
 
   void sample_distances(const Index3& brick, double* values) const {
+    KnownDistance last{Vec3::Zero(), 0.0};
     for (int k = 0; k < points; ++k)
       for (int j = 0; j < points; ++j)
-        for (int i = 0; i < points; ++i) *values++ = distance_at(brick, i, j, k);
+        for (int i = 0; i < points; ++i) *values++ = distance_at(brick, Vec3(i, j, k), last);
   }
 
   // s - (1/8) (sum of the second differences), each left out at kinks, where it would overshoot.
   void sample_coefficients(const Index3& brick, double* values) const {
     constexpr int wide = points + 2;
     double s[wide][wide][wide];
+    KnownDistance last{Vec3::Zero(), 0.0};
     const auto outside = [](int n) { return n == 0 || n == wide - 1; };
     for (int k = 0; k < wide; ++k)
       for (int j = 0; j < wide; ++j)
         for (int i = 0; i < wide; ++i)
           if (outside(i) + outside(j) + outside(k) < 2)  // no edges
-            s[k][j][i] = distance_at(brick, i - 1, j - 1, k - 1);
+            s[k][j][i] = distance_at(brick, Vec3(i - 1, j - 1, k - 1), last);
     for (int k = 1; k <= points; ++k)
       for (int j = 1; j <= points; ++j)
         for (int i = 1; i <= points; ++i)

@@ -16,6 +16,7 @@ struct VolumeGrid {
   int halvings;
 };
 
-double solid_volume(const SignedDistance& shape, const VolumeGrid& grid);  // m^3
+// m^3; the same bits for any number of threads.
+double solid_volume(const SignedDistance& shape, const VolumeGrid& grid, int threads = 1);
 
 }  // namespace gasgrain

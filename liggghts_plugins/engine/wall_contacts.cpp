@@ -42,7 +42,6 @@ void WallContacts::add_contact_loads(int block, const WallBatch& batch) {
 template <TangentialModel tangential>
 void WallContacts::add_block(int block, const WallBatch& batch) {
   SdfWall& wall = wall_->wall();
-  const double steepest = wall.body().shape->steepest_gradient();
   std::vector<Vec3>& springs = wall_->springs();
   const double travelled = batch.travelled + swept_;
   for (int c = block_begin_[block]; c < block_begin_[block + 1]; ++c) {
@@ -61,13 +60,14 @@ void WallContacts::add_block(int block, const WallBatch& batch) {
                             .position = ConstColumn(record.position),
                             .velocity = ConstColumn(record.velocity),
                             .spin = ConstColumn(batch.spins[i].velocity)};
-    const WallTouch touch = wall.touch<tangential>(grain, springs[c], batch.step, load_);
+    const WallTouch touch =
+        wall.touch<tangential>(grain, wall_->local_walls(c), springs[c], batch.step, load_);
     if (touch.touches) {
       LoadRecord& sum = batch.ring.slots[i & batch.ring.mask];
       Column(sum.force) += touch.force;
       Column(sum.torque) += touch.torque;
     } else {
-      candidate.touches_after = travelled + touch.gap / steepest;
+      candidate.touches_after = travelled + touch.way;
     }
   }
 }

@@ -1,8 +1,7 @@
 // Contacts of the engine's grains with one SDF wall: the force of fix wall/sdf, on our records.
 //
-// The distance of a candidate is not asked for again until the grain may have come near: a grain
-// at distance phi with radius r cannot touch before it and the wall have travelled phi - r
-// together, divided by the largest gradient that the field can have.
+// The distance of a candidate is not asked for again until grain and wall have travelled, together,
+// the way that they can go before they may touch.
 #pragma once
 
 #include <vector>

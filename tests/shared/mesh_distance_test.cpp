@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "coupling/shared/boolean_shapes.hpp"
+#include "coupling/shared/known_distance.hpp"
 #include "coupling/shared/primitives.hpp"
 #include "coupling/shared/sampling.hpp"
 #include "coupling/shared/solid_volume.hpp"
@@ -122,6 +123,25 @@ TEST(MeshDistance, ASheetIsAWallAlongTheSurfaceWithItsOpenings) {
   }
   EXPECT_NEAR(sheet->distance(Vec3(lower[0], 0, 0)), -0.02, 1e-13);
   EXPECT_GT(sheet->distance(Vec3::Zero()), 0.2);
+}
+
+TEST(MeshDistance, IsTheSameWithHelpOfAKnownPlace) {
+  const Triangles two_parts =
+      both(box, box_triangles(lower + Vec3(0.3, 0.2, 0.1), upper + Vec3(0.3, 0.2, 0.1)));
+  for (const Shape& shape :
+       {shape_of(box), make_complement(shape_of(box)), shape_of(two_parts), exact_box}) {
+    RandomPoints points = around();
+    KnownDistance known{points.next(), 0.0};
+    known.distance = shape->distance(known.place);
+    for (int n = 0; n < 3000; ++n) {
+      // hardly away from the known place, up to far beyond the surface
+      const Vec3 x = known.place + 0.01 * (n % 100) * (points.next() - known.place);
+      const double distance = shape->distance(x);
+      ASSERT_EQ(distance_near(*shape, x, known), distance) << x.transpose();
+      known = {x, distance};
+      if (n % 100 == 99) known = {points.next(), 0.0};
+    }
+  }
 }
 
 TEST(MeshDistance, SampledMeshKeepsItsVolume) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double radius = 0.2;
 
-NearSurfaces contacts(const Shape& shape, const Vec3& x) {
+NearWalls contacts(const Shape& shape, const Vec3& x) {
   return ball_contacts(*shape, shape->sample(x), x, radius);
 }
 
@@ -46,7 +46,7 @@ Shape sampled(const Shape& shape, Interpolation interpolation) {
                             .interpolation = interpolation}));
 }
 
-void expect_both_walls(const NearSurfaces& found, const Wedge& wedge, double overlap,
+void expect_both_walls(const NearWalls& found, const Wedge& wedge, double overlap,
                        double tolerance) {
   ASSERT_EQ(found.count, 2);
   double to_first = 0.0, to_second = 0.0;
@@ -79,7 +79,7 @@ TEST(NearSurfaces, ABallThatTouchesOneWallNearAnEdgeFeelsThatOneAlone) {
     const Shape field = sampled(wedge.shape, interpolation);
     for (double away = 0.004; away < 0.2; away += 0.004) {
       const Vec3 x = wedge.place + away * Vec3(wedge.first[1], -wedge.first[0], 0);
-      const NearSurfaces found = contacts(field, x);
+      const NearWalls found = contacts(field, x);
       ASSERT_EQ(found.count, 1) << away;
       EXPECT_NEAR(found.surface[0].distance, radius - 1e-3, 1e-3 * radius) << away;
     }
@@ -96,7 +96,7 @@ TEST(NearSurfaces, ABallBesideARoundPostTouchesPostAndFloor) {
   const Shape field = sampled(scene, Interpolation::quadratic);
   for (double turn = 0.0; turn < 6.0; turn += 0.37) {
     const Vec3 out(std::cos(turn), std::sin(turn), 0);
-    const NearSurfaces found = contacts(
+    const NearWalls found = contacts(
         field, (post_radius + radius - overlap) * out + (radius - overlap) * Vec3(0, 0, 1));
     ASSERT_EQ(found.count, 2) << turn;
     for (int n = 0; n < 2; ++n) {
@@ -104,6 +104,25 @@ TEST(NearSurfaces, ABallBesideARoundPostTouchesPostAndFloor) {
       const double to_wall =
           std::max(found.surface[n].gradient.dot(out), found.surface[n].gradient[2]);
       EXPECT_NEAR(to_wall, 1.0, 1e-4) << turn;
+    }
+  }
+}
+
+// Where the ball touches within the rounding of a blunt edge (r/4 spacing: beyond 105 degrees) its
+// distances are those of the rounded edge. The ball is never lost, and the error stays below 0.5 %
+// of its radius.
+TEST(NearSurfaces, ABluntEdgeErrsByLessThanHalfAPercentOfTheRadius) {
+  for (double degrees = 100.0; degrees < 176.0; degrees += 5.0) {
+    const Wedge wedge(degrees, 1e-3);
+    const Shape field = sampled(wedge.shape, Interpolation::quadratic);
+    for (const double along : {-1.0, -0.4, 0.0, 0.3, 1.0}) {
+      const Vec3 x = wedge.place + Vec3(0, along * 1e-3, 0.017);
+      const NearWalls found = contacts(field, x);
+      ASSERT_GE(found.count, 1) << degrees;
+      EXPECT_NEAR(found.surface[0].distance, wedge.shape->distance(x), 0.005 * radius) << degrees;
+      if (degrees < 151.0) {
+        EXPECT_EQ(found.count, 2) << degrees;
+      }
     }
   }
 }
@@ -125,7 +144,7 @@ TEST(NearSurfaces, CoveredPartsOfAUnionAreNotTouched) {
 TEST(NearSurfaces, ASmoothConcaveWallIsTouchedOnce) {
   const Shape bowl = make_complement(make_shape(Sphere{Vec3::Zero(), 0.6}));
   for (const Interpolation interpolation : {Interpolation::linear, Interpolation::quadratic}) {
-    const NearSurfaces found = contacts(sampled(bowl, interpolation), Vec3(0.25, 0.2, 0.26));
+    const NearWalls found = contacts(sampled(bowl, interpolation), Vec3(0.25, 0.2, 0.26));
     ASSERT_EQ(found.count, 1);
     EXPECT_NEAR(found.surface[0].distance, 0.6 - Vec3(0.25, 0.2, 0.26).norm(), 5e-3);
   }

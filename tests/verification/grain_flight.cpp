@@ -43,9 +43,10 @@ void GrainFlight::find_forces(const plugins::TangentialStep& step) {
                                    .velocity = Eigen::Map<const Vec3>(velocity.data()),
                                    .spin = Eigen::Map<const Vec3>(spin.data())};
   plugins::WallLoad load;
-  touch_ = material_.friction > 0
-               ? wall_.touch<plugins::TangentialModel::history>(grain, displacement_, step, load)
-               : wall_.touch<plugins::TangentialModel::off>(grain, displacement_, step, load);
+  touch_ =
+      material_.friction > 0
+          ? wall_.touch<plugins::TangentialModel::history>(grain, walls_, displacement_, step, load)
+          : wall_.touch<plugins::TangentialModel::off>(grain, walls_, displacement_, step, load);
 }
 
 void GrainFlight::step(double duration) {
@@ -58,6 +59,13 @@ void GrainFlight::step(double duration) {
   position += duration * velocity;
   find_forces({plugins::History::advance, duration});
   kick();
+}
+
+double GrainFlight::gap() const {
+  LocalWalls walls;
+  walls.come_to(*wall_.body().shape, position, material_.radius);
+  return (walls.count() > 0 ? walls.seen_from(position, 0).distance : wall_.distance(position)) -
+         material_.radius;
 }
 
 double GrainFlight::kinetic_energy() const {

@@ -32,14 +32,15 @@ class GrainFlight {
   void step(double duration);
 
   bool touches() const { return touch_.touches; }
-  double gap() const { return wall_.distance(position) - material_.radius; }  // m
-  double kinetic_energy() const;                                              // of translation, J
+  double gap() const;             // to the nearest wall as contacts know it, m
+  double kinetic_energy() const;  // of translation, J
 
  private:
   void find_forces(const plugins::TangentialStep& step);
 
   GrainMaterial material_;
   plugins::SdfWall wall_;
+  LocalWalls walls_;
   plugins::WallTouch touch_;
   Vec3 displacement_ = Vec3::Zero();  // tangential spring, m
 };
