@@ -138,6 +138,7 @@ void FusedVerlet::fused_step() {
   } else {
     ++neighbor->ago;
     ghosts_.update_ghosts(loop_);
+    for (LAMMPS_NS::Fix* fix : plan_.live_mesh_fixes) fix->pre_force(vflag);
     timer->stamp(TIME_COMM);
   }
   const StepEnd end = who_looks_at_the_end();
@@ -245,7 +246,8 @@ void FusedVerlet::reneighbour() {
   timer->stamp(TIME_COMM);
   if (modify->n_pre_neighbor) modify->pre_neighbor();
   search_.build_lists(*lmp, pair_list());
-  for (LAMMPS_NS::Fix* mesh : plan_.insertion_meshes) mesh->pre_force(vflag);
+  if (plan_.mesh_wall) neighbor->bin_atoms();  // lists of meshes are built from LIGGGHTS's bins
+  for (LAMMPS_NS::Fix* fix : plan_.mesh_fixes) fix->pre_force(vflag);
   load_grains();
   timer->stamp(TIME_NEIGHBOR);
 }
@@ -264,6 +266,15 @@ FusedVerlet::StepEnd FusedVerlet::who_looks_at_the_end() const {
   return end;
 }
 
+void FusedVerlet::compute_outside_loads() {
+  std::vector<std::vector<GrainLoad>>& loads = loop_.outside_loads();
+  loads.resize(plan_.primitive_walls.size() + mesh_loads_.size());
+  std::size_t n = 0;
+  for (LAMMPS_NS::FixWallGran* wall : plan_.primitive_walls)
+    compute_wall_loads(loads[n++], *wall, *atom, loop_);
+  for (MeshWallLoads& mesh : mesh_loads_) mesh.compute(loads[n++], loop_, loop_.travelled());
+}
+
 void FusedVerlet::force_pass(StepEnd end) {
   const bool goes_on = end != StepEnd::closed;
   const double half_kick = 0.5 * update->dt * force->ftm2v;
@@ -273,10 +284,7 @@ void FusedVerlet::force_pass(StepEnd end) {
                               .drift = goes_on ? update->dt : 0.0,
                               .gravity = plan_.acceleration,
                               .held = held};
-  loop_.outside_loads().resize(plan_.primitive_walls.size());
-  for (std::size_t w = 0; w < plan_.primitive_walls.size(); ++w)
-    compute_wall_loads(loop_.outside_loads()[w], *plan_.primitive_walls[w], *atom, loop_);
-
+  compute_outside_loads();
   const GrainLoop::Observer show = [&](int i, const LoadRecord& load) {
     show_grain(i, load, held, half_kick);
   };

@@ -17,6 +17,7 @@
 
 #include "liggghts_plugins/engine/ghost_exchange.hpp"
 #include "liggghts_plugins/engine/grain_loop.hpp"
+#include "liggghts_plugins/engine/mesh_wall_loads.hpp"
 #include "liggghts_plugins/engine/pair_search.hpp"
 #include "liggghts_plugins/engine/scene_plan.hpp"
 #include "liggghts_plugins/engine/stream_grains.hpp"
@@ -51,6 +52,7 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
   void reneighbour();
   StepEnd who_looks_at_the_end() const;
   bool is_stream(const LAMMPS_NS::Fix* fix) const;
+  void compute_outside_loads();
   void force_pass(StepEnd end);
   void act_at_the_end(StepEnd end);
   void write_output();
@@ -78,6 +80,7 @@ class FusedVerlet : public LAMMPS_NS::Verlet {
   GrainLoop loop_;
   PairSearch search_;
   GhostExchange ghosts_;
+  std::vector<MeshWallLoads> mesh_loads_;
   StreamGrains streams_;
   // Positions of local grains when the lists were built, unless LIGGGHTS keeps them, too.
   std::vector<Vec3> built_at_;

@@ -1,5 +1,6 @@
 // Between LIGGGHTS's arrays and the engine's records: grains, pairs, contact histories.
 #include <atom.h>
+#include <fix_wall_gran.h>
 #include <force.h>
 #include <lammps.h>
 #include <neigh_list.h>
@@ -58,6 +59,9 @@ void FusedVerlet::load_grains() {
   loop_.finish_loading(neighbor->skin);
   for (LAMMPS_NS::FixWallGran* wall : plan_.primitive_walls)
     keep_near_grains(*wall, *atom, neighbor->skin);
+  mesh_loads_.clear();
+  for (int n = 0; plan_.mesh_wall && n < plan_.mesh_wall->n_meshes(); ++n)
+    mesh_loads_.emplace_back(*plan_.mesh_wall, n, *atom, *neighbor);
   ghosts_.load(*lmp);
   built_at_.resize(neighbor->dist_check ? 0 : counts.local);
   for (int i = 0; i < static_cast<int>(built_at_.size()); ++i)

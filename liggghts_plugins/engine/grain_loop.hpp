@@ -78,6 +78,7 @@ class GrainLoop {
 
   // Tells that all grains, ghosts too, moved by at most this, m. Kept for the near pairs and walls.
   void note_travel(double distance);
+  double travelled() const { return travelled_; }  // m since loading, bound
   void force_pass(const PassSettings& settings, const Observer* observer);
   double square_speed() const { return square_speed_; }  // largest of the last pass, m^2/s^2
   // Sum over the local grains in the last pass, N; 0 when none follows the velocity.

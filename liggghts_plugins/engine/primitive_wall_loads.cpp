@@ -28,9 +28,9 @@ constexpr int no_virial = 0;
 }  // namespace
 
 bool computes_loads_only(LAMMPS_NS::FixWallGran& wall) {
-  return !wall.is_mesh_wall() && !wall.store_force() && !wall.store_force_contact() &&
-         !wall.store_force_contact_stress() && !wall.store_sum_normal_force() &&
-         !wall.compute_wall_gran_local() && wall.heattransfer_flag() == 0 && !wall.fix_rigid();
+  return !wall.store_force() && !wall.store_force_contact() && !wall.store_force_contact_stress() &&
+         !wall.store_sum_normal_force() && !wall.compute_wall_gran_local() &&
+         wall.heattransfer_flag() == 0 && !wall.fix_rigid();
 }
 
 void keep_near_grains(LAMMPS_NS::FixWallGran& wall, LAMMPS_NS::Atom& atom, double reach) {

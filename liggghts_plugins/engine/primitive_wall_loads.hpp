@@ -14,7 +14,7 @@ class FixWallGran;
 
 namespace gasgrain::plugins {
 
-// Whether this is all that the fix does in a step: no mesh, no stored forces, no heat.
+// Whether loads on grains are all that the fix computes in a step: no stored forces, no heat.
 bool computes_loads_only(LAMMPS_NS::FixWallGran& wall);
 
 // Takes the grains out of the fix's list that are farther away than `reach` (m, of the surfaces)

@@ -5,6 +5,7 @@
 #include <domain.h>
 #include <fix.h>
 #include <fix_gravity.h>
+#include <fix_mesh_surface.h>
 #include <fix_nve_sphere.h>
 #include <fix_wall_gran.h>
 #include <force.h>
@@ -13,12 +14,14 @@
 #include <neigh_list.h>
 #include <neighbor.h>
 #include <pair_gran.h>
+#include <tri_mesh.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <string>
 
+#include "liggghts_plugins/engine/mesh_wall_loads.hpp"
 #include "liggghts_plugins/engine/primitive_wall_loads.hpp"
 #include "liggghts_plugins/engine/stock_pair_law.hpp"
 #include "liggghts_plugins/fix_wall_sdf.h"
@@ -165,7 +168,12 @@ class Planner {
     }
     if (auto* wall = dynamic_cast<LAMMPS_NS::FixWallGran*>(&fix);
         wall && is_style(fix, "wall/gran") && computes_loads_only(*wall)) {
-      plan_.primitive_walls.push_back(wall);
+      if (!wall->is_mesh_wall())
+        plan_.primitive_walls.push_back(wall);
+      else if (meshes_compute_loads_only(*wall))
+        plan_.mesh_wall = wall;
+      else
+        return false;
       return true;
     }
     if (is_style(fix, "gravity")) {
@@ -186,9 +194,14 @@ class Planner {
       plan_.streams.push_back(&fix);
       return true;
     }
-    // walls of it and whatever moves it are fixes of their own, and not understood
+    if (is_style(fix, "neighlist/mesh") || is_style(fix, "contacthistory/mesh")) {
+      plan_.mesh_fixes.push_back(&fix);
+      return true;
+    }
     if (is_style(fix, "mesh/surface") || is_style(fix, "mesh/surface/planar")) {
-      plan_.insertion_meshes.push_back(&fix);
+      auto& mesh = static_cast<LAMMPS_NS::FixMeshSurface&>(fix);
+      plan_.mesh_fixes.push_back(&fix);
+      if (mesh.surfaceVel()) plan_.live_mesh_fixes.push_back(&fix);  // perhaps of variables
       return true;
     }
     if (is_style(fix, "nve/sphere")) {
@@ -254,6 +267,7 @@ std::string ScenePlan::text() const {
   if (!walls.empty()) text += ", wall/sdf x " + std::to_string(walls.size());
   if (!primitive_walls.empty())
     text += ", wall/gran primitive x " + std::to_string(primitive_walls.size());
+  if (mesh_wall) text += ", wall/gran mesh x " + std::to_string(mesh_wall->n_meshes());
   if (!streams.empty()) text += ", insert/stream x " + std::to_string(streams.size());
   if (held_force) text += ", " + std::string(held_force_fix->style);
   return text + ", nve/sphere";

@@ -37,9 +37,12 @@ struct ScenePlan {
   LAMMPS_NS::Fix* held_force_fix = nullptr;     // the same
   std::vector<LAMMPS_NS::Fix*> reneighbouring;  // fixes that ask for it at steps of their own
   std::vector<LAMMPS_NS::Fix*> streams;         // fix insert/stream (stream_grains.hpp)
-  // Meshes that do not move and of which no wall is made: those of insertion. Their pre_force()
-  // deals them out to the ranks after a reneighbouring.
-  std::vector<LAMMPS_NS::Fix*> insertion_meshes;
+  LAMMPS_NS::FixWallGran* mesh_wall = nullptr;  // LIGGGHTS allows one fix wall/gran of meshes
+  // Meshes, their lists of grains, their contact histories and what moves them. Their pre_force()
+  // deals meshes out to the ranks and builds the lists after a reneighbouring.
+  std::vector<LAMMPS_NS::Fix*> mesh_fixes;
+  // Those of them whose hooks are called in every step: they move, or record forces.
+  std::vector<LAMMPS_NS::Fix*> live_mesh_fixes;
 
   bool known_pair_style = false;
 

@@ -81,12 +81,19 @@ def reference_log(bench):
     return (bench.directory / "log.txt").read_text()
 
 
+def stl(triangles):
+    """An ASCII STL file of triangles, each of three corners."""
+    text = "solid surface\n"
+    for corners in triangles:
+        text += "facet normal 0 0 1\n outer loop\n"  # normals are not read
+        text += "".join("  vertex " + " ".join(f"{value:.9g}" for value in corner) + "\n"
+                        for corner in corners)
+        text += " endloop\nendfacet\n"
+    return text + "endsolid surface\n"
+
+
 def plate(height, lower, upper):
     """An STL file of a square plate."""
     (a, b), (c, d) = lower, upper
-    text = "solid plate\n"
-    for corners in (((a, b), (c, b), (c, d)), ((a, b), (c, d), (a, d))):
-        text += "facet normal 0 0 1\n outer loop\n"
-        text += "".join(f"  vertex {x:.9g} {y:.9g} {height:.9g}\n" for x, y in corners)
-        text += " endloop\nendfacet\n"
-    return text + "endsolid plate\n"
+    return stl([[(x, y, height) for x, y in corners]
+                for corners in (((a, b), (c, b), (c, d)), ((a, b), (c, d), (a, d)))])

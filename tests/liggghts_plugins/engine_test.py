@@ -298,8 +298,8 @@ class Plan(EngineTest):
         "fix drag viscous": "fix drag all viscous 1e-6\n",
         "fix every ave/time": "fix every all ave/time 1 1 100 f_floor[3] file t.txt\n",
         "fix mesh wall/gran": "fix plate all mesh/surface file plate.stl type 2\n"
-                              "fix mesh all wall/gran model cgm tangential history mesh "
-                              "n_meshes 1 meshes plate\n",
+                              "fix mesh all wall/gran model cgm tangential history "
+                              "store_force yes mesh n_meshes 1 meshes plate\n",
         "compute pair/gran/local": "compute c all pair/gran/local id force\n"
                                    "dump l all local 100 l.dump c_c[1]\n",
     }
