@@ -43,6 +43,11 @@ struct PlacesAtBuild {
   using Member = double** Neighbor::*;
   friend Member private_member(PlacesAtBuild);
 };
+struct FillBins {
+  using Member = void (Neighbor::*)();
+  friend Member private_member(FillBins);
+};
+template struct GrantAccess<FillBins, &Neighbor::bin_atoms>;
 template struct GrantAccess<PlacesAtBuild, &Neighbor::xhold>;
 template struct GrantAccess<MustCheck, &Neighbor::must_check>;
 template struct GrantAccess<NextRestart, &LAMMPS_NS::Output::next_restart>;
@@ -133,6 +138,7 @@ void FusedVerlet::fused_step() {
   ++update->ntimestep;
   timer->stamp();
   if (closed_) open_step();
+  for (LAMMPS_NS::Fix* fix : plan_.live_mesh_fixes) fix->initial_integrate(vflag);
   if (reneighbouring_due()) {
     reneighbour();
   } else {
@@ -143,6 +149,7 @@ void FusedVerlet::fused_step() {
   }
   const StepEnd end = who_looks_at_the_end();
   force_pass(end);
+  for (LAMMPS_NS::Fix* fix : plan_.live_mesh_fixes) fix->final_integrate();
   timer->stamp(TIME_PAIR);
   act_at_the_end(end);
   if (closed_ && quit_requested_) stop_ = true;
@@ -246,7 +253,8 @@ void FusedVerlet::reneighbour() {
   timer->stamp(TIME_COMM);
   if (modify->n_pre_neighbor) modify->pre_neighbor();
   search_.build_lists(*lmp, pair_list());
-  if (plan_.mesh_wall) neighbor->bin_atoms();  // lists of meshes are built from LIGGGHTS's bins
+  // LIGGGHTS's bins, of which our search has no need, are where meshes look for grains
+  if (plan_.mesh_wall) (neighbor->*private_member(FillBins()))();
   for (LAMMPS_NS::Fix* fix : plan_.mesh_fixes) fix->pre_force(vflag);
   load_grains();
   timer->stamp(TIME_NEIGHBOR);

@@ -5,7 +5,6 @@
 #include <domain.h>
 #include <fix.h>
 #include <fix_gravity.h>
-#include <fix_mesh_surface.h>
 #include <fix_nve_sphere.h>
 #include <fix_wall_gran.h>
 #include <force.h>
@@ -14,13 +13,13 @@
 #include <neigh_list.h>
 #include <neighbor.h>
 #include <pair_gran.h>
-#include <tri_mesh.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <string>
 
+#include "liggghts_plugins/engine/mesh_fix.hpp"
 #include "liggghts_plugins/engine/mesh_wall_loads.hpp"
 #include "liggghts_plugins/engine/primitive_wall_loads.hpp"
 #include "liggghts_plugins/engine/stock_pair_law.hpp"
@@ -143,7 +142,7 @@ class Planner {
     if (fix.box_change_size || fix.box_change_shape || fix.box_change_domain)
       oppose(std::string("box that fix ") + fix.id + " " + fix.style + " changes");
     if (fix.force_reneighbor) plan_.reneighbouring.push_back(&fix);
-    if (fuses(fix)) return;
+    if (fuses(fix) || fuses_mesh(fix)) return;
     const bool known = std::any_of(reneighbouring_styles.begin(), reneighbouring_styles.end(),
                                    [&](const char* style) { return is_style(fix, style); });
     const int understood = hook::END_OF_STEP | (known ? reneighbouring_hooks : 0);
@@ -194,16 +193,6 @@ class Planner {
       plan_.streams.push_back(&fix);
       return true;
     }
-    if (is_style(fix, "neighlist/mesh") || is_style(fix, "contacthistory/mesh")) {
-      plan_.mesh_fixes.push_back(&fix);
-      return true;
-    }
-    if (is_style(fix, "mesh/surface") || is_style(fix, "mesh/surface/planar")) {
-      auto& mesh = static_cast<LAMMPS_NS::FixMeshSurface&>(fix);
-      plan_.mesh_fixes.push_back(&fix);
-      if (mesh.surfaceVel()) plan_.live_mesh_fixes.push_back(&fix);  // perhaps of variables
-      return true;
-    }
     if (is_style(fix, "nve/sphere")) {
       const auto& sphere = static_cast<const FixNVESphere&>(fix);
       ++integrators_;
@@ -213,6 +202,16 @@ class Planner {
       return true;
     }
     return false;
+  }
+
+  bool fuses_mesh(Fix& fix) {
+    const MeshFixRole role = mesh_fix_role(fix);
+    if (role == MeshFixRole::none) return false;
+    if (role == MeshFixRole::variable)
+      oppose(std::string("fix ") + fix.id + " " + fix.style + " with variables");
+    plan_.mesh_fixes.push_back(&fix);
+    if (role == MeshFixRole::live) plan_.live_mesh_fixes.push_back(&fix);
+    return true;
   }
 
   // On any rank.
@@ -268,6 +267,7 @@ std::string ScenePlan::text() const {
   if (!primitive_walls.empty())
     text += ", wall/gran primitive x " + std::to_string(primitive_walls.size());
   if (mesh_wall) text += ", wall/gran mesh x " + std::to_string(mesh_wall->n_meshes());
+  for (const LAMMPS_NS::Fix* fix : live_mesh_fixes) text += std::string(", ") + fix->style;
   if (!streams.empty()) text += ", insert/stream x " + std::to_string(streams.size());
   if (held_force) text += ", " + std::string(held_force_fix->style);
   return text + ", nve/sphere";

@@ -3,12 +3,14 @@
 Reference: the same executable with `gasgrain_engine off`, as in engine_test.py.
 """
 
+import re
 import unittest
 
-from engine_scenes import FORCES, RADIUS, SCALE, SIDE, EngineTest, crowd, files, plate, scene, stl
+from engine_scenes import (FORCES, RADIUS, SCALE, SIDE, EngineTest, crowd, plate, reference_log,
+                           scene, stl, thermo_of)
 from engine_stock_models_test import MATERIALS, STIFFNESSES
 from liggghts_run import (Bench, cgm_properties, data_file, dump_command, largest_difference,
-                          preamble)
+                          preamble, thermo)
 
 LENGTHS = (2 * SIDE, SIDE, 2 * SIDE)
 MARGIN = 2 * RADIUS
@@ -76,6 +78,12 @@ def stock_scene(model, properties, walls, boundary="f f f"):
             "fix gravity all gravity 9.81 vector 0 0 -1\nfix integrate all nve/sphere\n" + walls)
 
 
+def cell_fields(path):
+    """Rows of a VTK file's cell data: the values of each triangle."""
+    fields = re.findall(r"^\w+ 1 \d+ double\n([^a-z]*)", path.read_text(), re.MULTILINE)
+    return list(zip(*([float(word) for word in field.split()] for field in fields), strict=True))
+
+
 class MeshWalls(EngineTest):
     HERTZ = "hertz tangential history"
 
@@ -139,6 +147,55 @@ class MeshWalls(EngineTest):
                     self.check(stock_scene(self.HERTZ, MATERIALS, walls, boundary), scene_files,
                                ranks, columns="xu yu zu vx vy vz omegax omegay omegaz")
 
+    def test_moving_meshes(self):
+        """A paddle turns, a pyramid swings and a floor rises in a box at rest."""
+        meshes_used = [surface("box"), surface("paddle"), surface("roof"),
+                       surface("floor", file="plate")]
+        scene_files = mesh_files(crowd())
+        scene_files["plate.stl"] = plate(0.1 * RADIUS, (0, 0), (2 * SIDE, SIDE))
+        scene_files["paddle.stl"] = stl([[(x, SIDE / 2, z) for x, z in corners] for corners in (
+            ((8e-3, 8e-3), (11e-3, 8e-3), (11e-3, 10e-3)),
+            ((8e-3, 8e-3), (11e-3, 10e-3), (8e-3, 10e-3)))])
+        motion = ("fix turn all move/mesh mesh paddle rotate origin 0.0095 0.003 0 axis 0 0 1 "
+                  "period 0.04\n"
+                  "fix swing all move/mesh mesh roof wiggle amplitude 2e-4 0 3e-4 period 3e-3\n"
+                  "fix rise all move/mesh mesh floor linear 0 0 0.05\n")
+        text = stock_scene(self.HERTZ, MATERIALS, meshes(self.HERTZ, meshes_used) + motion)
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                frames = self.check(text, scene_files, ranks)
+        still = self.check(text.replace(motion, ""), scene_files)
+        self.assertGreater(largest_difference(still, frames, SCALE), 1e-2)
+
+    def test_forces_and_wear_of_meshes(self):
+        head = "fix k_finnie all property/global k_finnie peratomtypepair 2 1 1 1 1\n"
+        text = stock_scene(self.HERTZ, MATERIALS + head, meshes(self.HERTZ, [
+            surface("box", "wear finnie", style="mesh/surface/stress"),
+            surface("roof", "reference_point 0.006 0.003 0", style="mesh/surface/stress")]))
+        rest = (thermo_of(" ".join(f"f_{mesh}[{n}]" for mesh in ("box", "roof")
+                                   for n in range(1, 7))) +
+                dump_command("d", 100) +
+                "dump m all mesh/gran/VTK 500 mesh.*.vtk stress wear box\nrun 1000\n")
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                reference, fused, _ = self.off_and_fused(text, rest, mesh_files(crowd()), ranks)
+                self.assert_same_motion(reference, fused)
+                self.assert_same_numbers(*(thermo(reference_log(bench))
+                                           for bench in (reference, fused)))
+                if ranks == 1:  # triangles of several ranks are written in the order of the ranks
+                    triangles = [cell_fields(bench.directory / "mesh.1000.vtk")
+                                 for bench in (reference, fused)]
+                    self.assertEqual(len(triangles[0][0]), 3)  # two stresses and the wear
+                    self.assert_same_numbers(*triangles)
+
+    def assert_same_numbers(self, rows, others):
+        """Each column relative to its largest value."""
+        self.assertGreater(len(rows), 3)
+        for column, values in enumerate(zip(*rows, strict=True)):
+            largest = max(abs(value) for value in values)
+            for row, other in zip(rows, others, strict=True):
+                self.assertLessEqual(abs(row[column] - other[column]), 1e-6 * largest)
+
     def test_steps_of_the_stock_loop_in_between(self):
         pressure = ("compute p all pressure thermo_temp\nthermo_style custom step ke c_p\n"
                     "thermo 70\n")
@@ -182,13 +239,20 @@ class SameBits(EngineTest):
 class Plan(EngineTest):
     def test_what_is_not_understood_is_named(self):
         model = MeshWalls.HERTZ
-        servo = ("com 0 0 0.01 ctrlPV force axis 0 0 1 target_val 1 vel_max 0.1 kp 5")
+        servo = "com 0 0 0.01 ctrlPV force axis 0 0 1 target_val 1 vel_max 0.1 kp 5"
+        box = meshes(model, [surface("box")])
+        turn = ("variable w equal 1+step\n"
+                "fix turn all move/mesh mesh box rotate/variable origin 0 0 0 axis 0 0 1 "
+                "omega v_w\n")
         for walls, name in (
                 (meshes(model, [surface("box", servo, style="mesh/surface/stress/servo")]),
                  "fix box mesh/surface/stress/servo"),
-                (meshes(model, [surface("box")]).replace(" mesh n_meshes",
-                                                         " store_force yes mesh n_meshes"),
-                 "fix walls wall/gran")):
+                (box.replace(" mesh n_meshes", " store_force yes mesh n_meshes"),
+                 "fix walls wall/gran"),
+                ("variable w equal 1e-3*step\n" +
+                 meshes(model, [surface("box", "surface_vel v_w 0 0")]),
+                 "fix box mesh/surface with variables"),
+                (box + turn, "fix turn move/mesh with variables")):
             with self.subTest(name):
                 run = Bench(mesh_files(crowd())).run(
                     "gasgrain_engine auto\n" + stock_scene(model, MATERIALS, walls) + "run 10\n")
