@@ -94,8 +94,8 @@ struct GasCase {
   std::vector<ConfigStatement> statements;  // all that the case file says; empty without a file
 };
 
-// Reads the sections grid, gas, boundary, body, numerics, initial, fixed_bed, run and output, and
-// leaves [coupling] and [grains] to the coupling. Any other section is an error. Throws UserError.
+// Reads all sections but [coupling] and [grains], which are left to the coupling. Throws UserError:
+// another section, an unknown key, a value out of the range that docs/case_file.md gives for it.
 GasCase read_gas_case(const ConfigTable& file);
 
 }  // namespace gasgrain::cfd

@@ -20,7 +20,7 @@ struct Lender {
 };
 
 struct GasDomain {
-  GasDomain(const GasCase& gas_case, MPI_Comm communicator);
+  GasDomain(const GasCase& gas_case, MPI_Comm communicator);  // UserError: of its members
 
   // Moves the bodies to where they are at `time` [s]. Collective.
   void move_to(double time);

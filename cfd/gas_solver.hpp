@@ -1,8 +1,8 @@
 // Volume-averaged Navier-Stokes equations (model A) on a staggered grid with grains as a porous,
 // dragging phase and SDF bodies as walls. The algorithm and its sources: cfd/gas_solver.cpp.
 //
-// Protocol: construct; then for each step set grains() (skip it when nothing moved) and call
-// advance(). All calls are collective over the decomposition's communicator.
+// Protocol: construct (UserError: the case cannot be solved, see GasDomain and check_boundaries());
+// then for each step set grains() (skip it when nothing moved) and call advance(). All collective.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Section [coupling.audit]: how large a residual may be, and what happens beyond.
+// Section [coupling.audit]: how large a residual (-) may be, and what happens beyond.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ struct AuditViolation {
   std::string text;  // value, bound, cause, remedy
 };
 
-AuditBounds read_audit_bounds(const ConfigTable& table);
+AuditBounds read_audit_bounds(const ConfigTable& table);  // throws UserError
 
 std::vector<AuditViolation> violations(const AuditBounds& bounds, const AuditResiduals& residuals,
                                        const AuditCauses& causes);

@@ -34,7 +34,7 @@ namespace gasgrain::coupling {
 
 // One line of timeseries.csv, and the vector output of fix couple/gas.
 struct SeriesRow {
-  double time = 0.0;
+  double time = 0.0;  // of the gas, s
   BedState bed;
   double weight_over_area = 0.0;  // Pa
   ExchangeReport exchange;

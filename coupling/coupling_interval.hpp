@@ -20,7 +20,7 @@ struct CouplingInterval {
 
 // Default: the least of the two motion limits, 5 % of the exchange limit and the gas limit. A
 // `requested` interval > 0 [s] takes the place of all but half the exchange limit; the gas then
-// subdivides it. The interval is a whole number of DEM steps, at least one.
+// subdivides it. A whole number of DEM steps (of `dem_step` > 0, s), from one to a million.
 CouplingInterval choose_interval(const IntervalLimits& limits, double dem_step, double requested);
 
 }  // namespace gasgrain::coupling

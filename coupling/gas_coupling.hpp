@@ -1,7 +1,7 @@
 // Gas and grains exchange volume and momentum: one coupling step.
 //
 // Protocol: construct; begin() once; then exchange() after every interval of DEM steps. All calls
-// are collective. The forces are to be held until the next exchange.
+// are collective and throw UserError on every rank. The forces are held until the next exchange.
 #pragma once
 
 #include <array>

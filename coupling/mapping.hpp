@@ -20,7 +20,7 @@ enum class Mapping {
 
 // As in coupling.mapping; in the order of Mapping.
 const std::vector<std::string>& mapping_names();
-Mapping find_mapping(const std::string& name);  // one of mapping_names()
+Mapping find_mapping(const std::string& name);  // precondition: one of mapping_names()
 const std::string& mapping_name(Mapping mapping);
 
 // Cells beside the one that holds the centre that a grain of that diameter [m] may reach, >= 1.

@@ -10,7 +10,7 @@ struct DragOptions {
   DragClosure closure = drag_gidaspow;
   double density = 1.0;                 // rho of the gas, kg/m^3
   double viscosity = 1.8e-5;            // mu, Pa s
-  double smallest_void_fraction = 0.2;  // the closure sees at least this eps
+  double smallest_void_fraction = 0.2;  // in (0, 1]; the closure sees at least this eps
   bool mixture = false;                 // grains of several sizes: drag_in_mixture()
 };
 

@@ -5,8 +5,10 @@
 
 namespace gasgrain::plugins {
 
-// Contact model cgm (pairs and walls), the commands coarsegraining and run (stock run after the
-// coarse-grain report), fix wall/sdf. Repeated calls are harmless.
+// Contact model cgm (pairs and walls), fix wall/sdf, the commands coarsegraining, gasgrain_engine,
+// gasgrain_checkpoint and run (stock's after the coarse-grain report, divided by checkpoints); in
+// an instance that estimates, what replaces them. Repeated calls are harmless; call again after a
+// `clear`.
 void register_styles(LAMMPS_NS::LAMMPS& lmp);
 
 // Fills described_styles() without a LIGGGHTS instance.

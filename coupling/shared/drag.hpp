@@ -8,14 +8,14 @@ namespace gasgrain {
 
 struct DragInput {
   double void_fraction;  // eps, (0, 1]
-  double diameter;       // d0 of the ORIGINAL particle, m
-  double slip;           // |u - v|, m/s
-  double density;        // rho of the gas, kg/m^3
-  double viscosity;      // mu of the gas, Pa s
+  double diameter;       // d0 of the ORIGINAL particle, m, > 0
+  double slip;           // |u - v|, m/s, >= 0
+  double density;        // rho of the gas, kg/m^3, > 0
+  double viscosity;      // mu of the gas, Pa s, > 0
 };
 
 // Returns beta / (1 - eps) in kg m^-3 s^-1: finite for a single grain (eps -> 1). The force on a
-// grain of volume V is that times V (u - v).
+// grain of volume V is that times V (u - v). Beyond the range of its fit a formula is continued.
 using DragClosure = double (*)(const DragInput&);
 
 // Ergun (1952) for eps <= 0.8, Wen & Yu (1966) above (Gidaspow 1994); the paper's eq 13-15 with rho

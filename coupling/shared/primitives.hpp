@@ -1,5 +1,5 @@
 // Plane, box, cylinder, cone, sphere and torus as solids: exact signed distance with its exact
-// gradient.
+// gradient. Points and lengths in m, lengths > 0 where nothing else is said.
 #pragma once
 
 #include "coupling/shared/signed_distance.hpp"

@@ -26,7 +26,8 @@ struct PlacedShape {
 };
 PlacedShape make_stl_shape(const StlSource& source);
 
-// Reads the `stl` table of a body (keys: docs/geometry.md).
+// Reads the `stl` table of a body (keys: docs/geometry.md). Throws UserError: no file of that name,
+// values out of range, zero axis, what make_stl_shape() refuses.
 Shape read_stl_shape(const ConfigTable& table);
 
 // What was found in a mesh and mended, as lines for the user: one about the whole, and one per
