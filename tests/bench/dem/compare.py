@@ -97,11 +97,17 @@ def write_result(path, costs, memory):
 def write_page():
     """All stored results as docs/engine_cost.md."""
     lines = ["# The fused engine against stock LIGGGHTS and LAMMPS", "",
-             "Made by `tests/bench/dem/compare.py` from `tests/bench/dem/results/`; what the "
-             "programs and states are is said at its head. Wall nanoseconds per grain and step, "
-             "then times faster than stock LIGGGHTS and LAMMPS, then bytes per grain of the whole "
-             "process. Targets, states A / B / C: "
-             + "; ".join(f"`{name}` {ours} of LIGGGHTS, {theirs} of LAMMPS"
+             "Made by `tests/bench/dem/compare.py` from `tests/bench/dem/results/`. Wall "
+             "nanoseconds per grain and step, then times faster than stock LIGGGHTS and LAMMPS, "
+             "then bytes per grain of the whole process.", "",
+             "States: A grains of 0.48 mm with random velocities of 0.1 m/s, almost collisional; "
+             "B settled, with random velocities of 0.1 m/s; C settled. Programs: `stock` LIGGGHTS with "
+             "tubes as meshes; `lammps` `gran/hooke/history`; `unchanged` "
+             "gasgrain with LIGGGHTS's own law and primitive walls; `fused` with the law `cgm` and "
+             "SDF walls; `mixed` the same in mixed precision.", "",
+             "Targets, times faster in A / B / C: "
+             + "; ".join(f"`{name}` {ours} than LIGGGHTS" + (f", {theirs} than LAMMPS"
+                                                             if theirs != "-" else "")
                          for name, (ours, theirs) in TARGETS.items()) + "."]
     paths = sorted(RESULTS.glob("*.csv"), key=lambda path: [*map(int, path.stem.split("_"))])
     if not paths:
