@@ -32,7 +32,7 @@ class CoupledBed(unittest.TestCase):
             rows = bed.series(bench.directory)
             self.assertEqual(len(rows), 6)
             reference = reference or rows
-            for row, expected in zip(rows, reference):
+            for row, expected in zip(rows, reference, strict=True):
                 self.assert_rows_agree(row, expected, ranks)
 
     def test_ranks_with_grains_or_with_gas_alone(self):
@@ -52,7 +52,7 @@ class CoupledBed(unittest.TestCase):
             rows = bed.series(bench.directory)
             self.assertEqual(rows[-1]["grains_outside"], 0)
             reference = reference or rows
-            for row, expected in zip(rows, reference):
+            for row, expected in zip(rows, reference, strict=True):
                 self.assertLess(abs(row["third_law_residual"]), 1e-12)
                 self.assertLess(abs(row["momentum_residual"]), 1e-9)
                 self.assertLess(abs(row["solid_volume_residual"]), 1e-12)
@@ -265,13 +265,15 @@ class BadInput(unittest.TestCase):
         self.assert_fails(["x.toml", "cannot read"], script=script)
 
     def test_unknown_key_suggests_the_nearest(self):
-        self.assert_fails(["coupling.exchange_intervl", "exchange_interval"], bed.case(coupling="exchange_intervl = 1e-4"))
+        self.assert_fails(["coupling.exchange_intervl", "exchange_interval"],
+                          bed.case(coupling="exchange_intervl = 1e-4"))
 
     def test_unknown_drag_law(self):
         self.assert_fails(["coupling.drag", "gidaspow"], bed.case(coupling='drag = "ergn"'))
 
     def test_value_out_of_range(self):
-        self.assert_fails(["coupling.exchange_interval", "-1"], bed.case(coupling="exchange_interval = -1"))
+        self.assert_fails(["coupling.exchange_interval", "-1"],
+                          bed.case(coupling="exchange_interval = -1"))
 
     def test_unknown_keyword_of_the_fix(self):
         script = bed.script("run 10").replace("out out", "output out")

@@ -150,10 +150,10 @@ class Group(unittest.TestCase):
 
         frames = bench.frames("d.dump")
         first, last = momenta(frames[0]), momenta(frames[-1])
-        for a, b in zip(first[0], last[0]):
+        for a, b in zip(first[0], last[0], strict=True):
             self.assertAlmostEqual(a, b, delta=1e-12 * mass * 0.1)
-        for a, b in zip(first[1], last[1]):
-            self.assertAlmostEqual(a, b, delta=1e-4 * mass * 0.1 * R0)  # dumped to 17 digits
+        for a, b in zip(first[1], last[1], strict=True):
+            self.assertAlmostEqual(a, b, delta=1e-12 * mass * 0.1 * R0)
 
 
 if __name__ == "__main__":
