@@ -5,6 +5,7 @@
 
 #include "cfd/halo_exchange.hpp"
 #include "coupling/shared/error.hpp"
+#include "coupling/shared/text.hpp"
 
 namespace gasgrain::cfd {
 
@@ -73,8 +74,8 @@ void check_trapped(const GasDomain& domain, const GasRegions& regions, const Ope
     const Index3& cell = regions.regions[r].first_cell;
     const Vec3 steps(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5);
     const Vec3 place = domain.decomposition.grid().lower + steps.cwiseProduct(domain.spacing);
-    message << "the gas around (" << place[0] << ", " << place[1] << ", " << place[2]
-            << ") m has no outlet, but " << total << " m^3/s blow into it (" << inlets.str()
+    message << "the gas around " << text(place) << " m has no outlet, but " << total
+            << " m^3/s blow into it (" << inlets.str()
             << "); give it an outlet of the same region, or take its inlets away";
     throw UserError(message.str());
   }

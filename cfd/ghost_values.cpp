@@ -43,6 +43,22 @@ void for_each_outside(const GasDomain& domain, Side s, const Field& field, Layer
   }
 }
 
+// The same with set(i, j, k, ghost, source), for what depends on the place.
+template <class LayerIndex, class Set>
+void for_each_place_outside(const GasDomain& domain, Side s, const Field& field, LayerIndex layer,
+                            Set set) {
+  const std::ptrdiff_t stride = field.stride(s.direction);
+  for (int l = 1; l <= halo; ++l) {
+    const auto [ghost, source] = layer(l);
+    if (!stored(domain, s.direction, ghost) || !stored(domain, s.direction, source)) continue;
+    for_each_in(stored_plane(domain, s.direction, ghost),
+                [&, step = (source - ghost) * stride](int i, int j, int k) {
+                  const std::ptrdiff_t n = field.index(i, j, k);
+                  set(i, j, k, n, n + step);
+                });
+  }
+}
+
 struct Layers {
   int ghost, source;
 };
@@ -75,24 +91,18 @@ double mirrored(BoundaryType type, double given, double inside, double void_frac
 void fill_tangential_by_faces(const GasDomain& domain, const FaceMedium& medium, Side s,
                               int component, Field& u) {
   const SideConditions& sides = domain.sides;
-  const auto layers = mirrored_cells(domain, s);
-  for (int l = 1; l <= halo; ++l) {
-    const auto [ghost, source] = layers(l);
-    if (!stored(domain, s.direction, ghost) || !stored(domain, s.direction, source)) continue;
-    const std::ptrdiff_t step = (source - ghost) * u.stride(s.direction);
-    for_each_in(stored_plane(domain, s.direction, ghost), [&](int i, int j, int k) {
-      const std::ptrdiff_t n = u.index(i, j, k);
-      const double eps = face_void_fraction(medium, component, n + step);
-      Index3 cell = domain.global_cell(i, j, k);
-      double sum = 0.0;
-      for (int beside = 0; beside < 2; ++beside, --cell[component]) {
-        const SideCondition& condition = sides.at(s.direction, s.side, cell);
-        const double given = sides.velocity(s.direction, s.side, cell)[component];
-        sum += mirrored(condition.type, given, u[n + step], eps);
-      }
-      u[n] = 0.5 * sum;
-    });
-  }
+  for_each_place_outside(
+      domain, s, u, mirrored_cells(domain, s), [&](int i, int j, int k, auto n, auto source) {
+        const double eps = face_void_fraction(medium, component, source);
+        Index3 cell = domain.global_cell(i, j, k);
+        double sum = 0.0;
+        for (int beside = 0; beside < 2; ++beside, --cell[component]) {
+          const SideCondition& condition = sides.at(s.direction, s.side, cell);
+          const double given = sides.velocity(s.direction, s.side, cell)[component];
+          sum += mirrored(condition.type, given, u[source], eps);
+        }
+        u[n] = 0.5 * sum;
+      });
 }
 
 void fill_tangential(const GasDomain& domain, const FaceMedium& medium, Side s, int component,
@@ -117,19 +127,14 @@ void fill_tangential(const GasDomain& domain, const FaceMedium& medium, Side s, 
 }
 
 void fill_normal_by_faces(const GasDomain& domain, Side s, Field& u) {
-  const auto layers = mirrored_faces(domain, s);
-  for (int l = 1; l <= halo; ++l) {
-    const auto [ghost, source] = layers(l);
-    if (!stored(domain, s.direction, ghost) || !stored(domain, s.direction, source)) continue;
-    const std::ptrdiff_t step = (source - ghost) * u.stride(s.direction);
-    for_each_in(stored_plane(domain, s.direction, ghost), [&](int i, int j, int k) {
-      const std::ptrdiff_t n = u.index(i, j, k);
-      const double on_side = u[n + step / 2];
-      const bool outlet = domain.sides.at(s.direction, s.side, domain.global_cell(i, j, k)).type ==
-                          BoundaryType::outlet;
-      u[n] = outlet ? on_side : 2.0 * on_side - u[n + step];
-    });
-  }
+  for_each_place_outside(
+      domain, s, u, mirrored_faces(domain, s), [&](int i, int j, int k, auto n, auto source) {
+        const double on_side = u[(n + source) / 2];
+        const bool outlet =
+            domain.sides.at(s.direction, s.side, domain.global_cell(i, j, k)).type ==
+            BoundaryType::outlet;
+        u[n] = outlet ? on_side : 2.0 * on_side - u[source];
+      });
 }
 
 void fill_normal(const GasDomain& domain, Side s, Field& u) {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
-#include <sstream>
+
+#include "coupling/shared/text.hpp"
 
 namespace gasgrain::cfd {
 
@@ -14,12 +15,6 @@ const std::vector<std::string> places{"point", "line", "plane", "box", "body"};
 void expect_only(const ConfigTable& table, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) table.has(key);
   table.reject_unknown_keys();
-}
-
-std::string text(const Vec3& v) {
-  std::ostringstream out;
-  out << "(" << v[0] << ", " << v[1] << ", " << v[2] << ")";
-  return out.str();
 }
 
 Vec3 point_in_grid(const ConfigTable& table, const std::string& key, const Grid& grid) {
@@ -46,7 +41,8 @@ BoxProbe read_box(const ConfigTable& table, const Grid& grid) {
   expect_only(table, {"lower", "upper"});
   const BoxProbe box{point_in_grid(table, "lower", grid), point_in_grid(table, "upper", grid)};
   if (!((box.upper - box.lower).minCoeff() > 0.0)) {
-    table.fail("upper", "must exceed lower in every component");
+    table.fail("upper", "is " + text(box.upper) + ", but must exceed lower = " + text(box.lower) +
+                            " in every component");
   }
   return box;
 }

@@ -167,11 +167,7 @@ void add_ghosts_to_owners(const cfd::Decomposition& decomposition, CellArray<com
   template void fill_ghosts<n>(const cfd::Decomposition&, CellArray<n>&, const GhostLayers&); \
   template void add_ghosts_to_owners<n>(const cfd::Decomposition&, CellArray<n>&,             \
                                         const GhostLayers&);
-GASGRAIN_INSTANTIATE(1)
-GASGRAIN_INSTANTIATE(2)
-GASGRAIN_INSTANTIATE(3)
-GASGRAIN_INSTANTIATE(4)
-GASGRAIN_INSTANTIATE(6)
+GASGRAIN_FOR_COMPONENTS(GASGRAIN_INSTANTIATE)
 #undef GASGRAIN_INSTANTIATE
 
 }  // namespace gasgrain::coupling

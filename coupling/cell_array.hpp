@@ -72,3 +72,7 @@ void add_ghosts_to_owners(const cfd::Decomposition& decomposition, CellArray<com
                           const GhostLayers& ghosts = {});
 
 }  // namespace gasgrain::coupling
+
+// instantiate(n) for every number of components that arrays have.
+#define GASGRAIN_FOR_COMPONENTS(instantiate) \
+  instantiate(1) instantiate(2) instantiate(3) instantiate(4) instantiate(6)

@@ -148,11 +148,7 @@ void ListedShares::collect(std::span<std::array<double, components>> values,
       CellArray<components>&, std::span<const std::array<double, components>>) const;        \
   template void ListedShares::collect<components>(std::span<std::array<double, components>>, \
                                                   const CellArray<components>&) const;
-GASGRAIN_INSTANTIATE(1)
-GASGRAIN_INSTANTIATE(2)
-GASGRAIN_INSTANTIATE(3)
-GASGRAIN_INSTANTIATE(4)
-GASGRAIN_INSTANTIATE(6)
+GASGRAIN_FOR_COMPONENTS(GASGRAIN_INSTANTIATE)
 #undef GASGRAIN_INSTANTIATE
 
 }  // namespace gasgrain::coupling

@@ -4,27 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "coupling/bed_monitor.hpp"
-#include "coupling/coupled_run.hpp"
+#include "coupling/run_results.hpp"
 
 namespace gasgrain::coupling {
-
-// Time means of the bed and what they are compared with.
-struct BedMeans {
-  double from = 0.0, to = 0.0;     // s of gas time
-  TimeMean height, pressure_drop;  // m, Pa
-  double weight_over_area = 0.0;   // Pa
-  double static_estimate = 0.0;    // Pa: weight over area times height x area / open volume below
-};
-
-BedMeans bed_means(const RunStatistics& statistics, const BedMonitor& monitor, double from);
-
-// The columns of timeseries.csv; vectors by their component along `axis`.
-std::vector<NamedValue> series_values(const SeriesRow& row,
-                                      const std::vector<std::string>& monitors, int axis);
-std::vector<Quantity> summary_quantities(const SeriesRow& row, const RunStatistics& statistics,
-                                         const WallTimes& times, const BedMeans& means,
-                                         const std::vector<std::string>& monitors);
 
 // What was set up, before the first step.
 struct Scene {
@@ -34,10 +16,10 @@ struct Scene {
   const ExchangeReport& report;
   const CouplingInterval& interval;
   GrainSizes sizes;
-  double dem_step;
-  Vec3 gravity;
+  double dem_step;  // s
+  Vec3 gravity;     // of the grains, m/s^2
   std::vector<std::string> unmeasured_walls;
-  std::string directory;
+  std::string directory;  // "": no files
 };
 std::string scene_text(const Scene& scene);
 

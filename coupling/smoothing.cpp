@@ -131,11 +131,7 @@ void Smoothing::apply(CellArray<components>& cells, const CellRange& range) {
 
 #define GASGRAIN_INSTANTIATE(components) \
   template void Smoothing::apply<components>(CellArray<components>&, const CellRange&);
-GASGRAIN_INSTANTIATE(1)
-GASGRAIN_INSTANTIATE(2)
-GASGRAIN_INSTANTIATE(3)
-GASGRAIN_INSTANTIATE(4)
-GASGRAIN_INSTANTIATE(6)
+GASGRAIN_FOR_COMPONENTS(GASGRAIN_INSTANTIATE)
 #undef GASGRAIN_INSTANTIATE
 
 }  // namespace gasgrain::coupling

@@ -152,11 +152,7 @@ void Deposition::gather(std::span<std::array<double, components>> values,
                                                 std::span<const std::array<double, components>>); \
   template void Deposition::gather<components>(std::span<std::array<double, components>>,         \
                                                const std::array<const cfd::Field*, components>&);
-GASGRAIN_INSTANTIATE(1)
-GASGRAIN_INSTANTIATE(2)
-GASGRAIN_INSTANTIATE(3)
-GASGRAIN_INSTANTIATE(4)
-GASGRAIN_INSTANTIATE(6)
+GASGRAIN_FOR_COMPONENTS(GASGRAIN_INSTANTIATE)
 #undef GASGRAIN_INSTANTIATE
 
 }  // namespace gasgrain::coupling

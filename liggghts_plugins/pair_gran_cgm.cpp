@@ -18,6 +18,7 @@
 #include "liggghts_plugins/contact_model_cgm.hpp"
 #include "liggghts_plugins/contact_report.hpp"
 #include "liggghts_plugins/contact_statistics.hpp"
+#include "liggghts_plugins/pair_grains.hpp"
 #include "liggghts_plugins/sphere_contact.hpp"
 
 namespace gasgrain::plugins {
@@ -27,87 +28,9 @@ namespace {
 using LAMMPS_NS::PairGran;
 using LIGGGHTS::ContactModels::CONTACT_NORMAL_MODEL;
 using LIGGGHTS::ContactModels::CONTACT_TANGENTIAL_MODEL;
-using Column = Eigen::Map<Vec3>;
-using ConstColumn = Eigen::Map<const Vec3>;
 
 constexpr const char* where = "pair_style gran model cgm";
 constexpr int contact_bits = CONTACT_NORMAL_MODEL | CONTACT_TANGENTIAL_MODEL;
-
-// The atom arrays of LIGGGHTS; per-atom vectors are contiguous.
-struct Grains {
-  explicit Grains(LAMMPS_NS::Atom& atom)
-      : x(atom.x[0]),
-        v(atom.v[0]),
-        omega(atom.omega[0]),
-        radius(atom.radius),
-        mass(atom.rmass),
-        type(atom.type),
-        mask(atom.mask),
-        f(atom.f[0]),
-        torque(atom.torque[0]),
-        local_count(atom.nlocal) {}
-
-  const double *x, *v, *omega, *radius, *mass;
-  const int *type, *mask;
-  double *f, *torque;
-  int local_count;
-};
-
-inline ConstColumn column(const double* array, int i) {
-  return ConstColumn(array + 3 * i);
-}
-inline Column column(double* array, int i) {
-  return Column(array + 3 * i);
-}
-
-// Masses of the pair as LIGGGHTS sees them: a grain of a rigid body has the body's mass.
-struct PairMasses {
-  double i, j;
-  bool i_frozen, j_frozen;
-};
-
-PairMasses pair_masses(const PairGran& pair, const Grains& g, int i, int j) {
-  PairMasses m{g.mass[i], g.mass[j], (g.mask[i] & pair.freeze_group_bit()) != 0,
-               (g.mask[j] & pair.freeze_group_bit()) != 0};
-  if (pair.fr_pair()) {
-    if (pair.mr_pair()[i] > 0.0) m.i = pair.mr_pair()[i];
-    if (pair.mr_pair()[j] > 0.0) m.j = pair.mr_pair()[j];
-  }
-  return m;
-}
-
-inline ContactCoefficients coefficients(const GrainContact& contact, const PairMasses& m) {
-  if (m.j_frozen) return contact.first_against_fixed(m.i);
-  if (m.i_frozen) return contact.second_against_fixed(m.j);
-  return contact.between(m.i, m.j);
-}
-
-// Surface forces of a pair, with the frozen one of it as a wall.
-struct PairSurface {
-  SurfaceForces forces;
-  RollingPair rolling;
-};
-
-PairSurface pair_surface(const GrainContact& contact, const PairMasses& m, const Grains& g, int i,
-                         int j) {
-  const GrainSize a{m.i, g.radius[i]}, b{m.j, g.radius[j]};
-  PairSurface pair;
-  pair.rolling.relative_spin = column(g.omega, i) - column(g.omega, j);
-  if (m.j_frozen || m.i_frozen) {
-    const GrainSize& free = m.j_frozen ? a : b;
-    pair.forces = m.j_frozen ? contact.surface_of_first_against_fixed(a)
-                             : contact.surface_of_second_against_fixed(b);
-    pair.rolling.effective_radius = free.radius;
-    pair.rolling.inertia = sphere_inertia(free.mass, free.radius);
-    return pair;
-  }
-  const double inertia_a = sphere_inertia(a.mass, a.radius);
-  const double inertia_b = sphere_inertia(b.mass, b.radius);
-  pair.forces = contact.surface_between(a, b);
-  pair.rolling.effective_radius = a.radius * b.radius / (a.radius + b.radius);
-  pair.rolling.inertia = inertia_a * inertia_b / (inertia_a + inertia_b);
-  return pair;
-}
 
 std::map<const LAMMPS_NS::LAMMPS*, PairGranCgm*>& pair_styles() {
   static std::map<const LAMMPS_NS::LAMMPS*, PairGranCgm*> styles;
@@ -150,11 +73,12 @@ void PairGranCgm::init_granular() {
   if (!atom->sphere_flag || !atom->rmass || atom->superquadric_flag || atom->shapetype_flag)
     throw UserError(std::string(where) + ": needs spheres with their own mass (atom_style sphere)");
   if (parent_->storeSumDelta())
-    throw UserError(std::string(where) + ": multi-contact models are not supported");
+    throw UserError(std::string(where) +
+                    ": multi-contact models are not supported; remove the one of the script");
   if (modify->n_fixes_style("insert/stream/predefined") > 0)
     throw UserError(std::string(where) +
                     ": fix insert/stream/predefined, which inserts contact histories of stock "
-                    "models, is not supported");
+                    "models, is not supported; use fix insert/stream or insert/pack");
   contacts_ = GrainContactTable(*lmp, settings_, where);
 }
 
@@ -172,7 +96,9 @@ void PairGranCgm::read_restart_settings(FILE* file, int64_t) {
   }
   MPI_Bcast(&complete, 1, MPI_INT, 0, world);
   if (!complete)
-    throw UserError(std::string(where) + ": the restart file holds no such pair style");
+    throw UserError(std::string(where) +
+                    ": the restart file holds another pair style or tangential model; state in the "
+                    "script the ones of the run that wrote it");
   MPI_Bcast(&settings_.stiffness_exponent.value, 1, MPI_DOUBLE, 0, world);
 }
 

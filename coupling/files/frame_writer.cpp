@@ -70,6 +70,19 @@ std::vector<std::int64_t> vertices(const ArrayBlock& block) {
   return result;
 }
 
+// Writes the arrays over the cells or grains of `block` into the frame `file`; returns their XML.
+std::string write_arrays(Hdf5File& out, const std::string& file, const ArrayBlock& block,
+                         const std::vector<NamedArray>& arrays, xdmf::Center center) {
+  std::string xml;
+  for (const NamedArray& array : arrays) {
+    const ArrayBlock values = with_components(block, array.components);
+    out.write(array.name, values, array.values);
+    xml += xdmf::attribute(array.name, array.components, center,
+                           xdmf::hdf_item(file + ":/" + array.name, values.global));
+  }
+  return xml;
+}
+
 void replace_file(const std::string& part, const std::string& path) {
   std::error_code error;
   std::filesystem::rename(part, path, error);
@@ -98,12 +111,7 @@ void FrameWriter::write(double time, const GridFrame& frame) {
   run_collectively(comm_, [&] {
     Hdf5File out = Hdf5File::create(path(file) + ".part", comm_);
     out.write_attribute<double>("time", {time});
-    for (const NamedArray& array : frame.arrays) {
-      const ArrayBlock values = with_components(block, array.components);
-      out.write(array.name, values, array.values);
-      xml += xdmf::attribute(array.name, array.components, xdmf::Center::cell,
-                             xdmf::hdf_item(file + ":/" + array.name, values.global));
-    }
+    xml += write_arrays(out, file, block, frame.arrays, xdmf::Center::cell);
     out.close();
   });
   finish_frame(time, number, xdmf::frame(time, xml));
@@ -124,12 +132,7 @@ void FrameWriter::write(double time, const PointFrame& frame) {
     out.write("position", positions, frame.positions);
     out.write("id", block, frame.ids);
     out.write("vertex", block, vertices(block).data());
-    for (const NamedArray& array : frame.arrays) {
-      const ArrayBlock values = with_components(block, array.components);
-      out.write(array.name, values, array.values);
-      xml += xdmf::attribute(array.name, array.components, xdmf::Center::grain,
-                             xdmf::hdf_item(file + ":/" + array.name, values.global));
-    }
+    xml += write_arrays(out, file, block, frame.arrays, xdmf::Center::grain);
     out.close();
   });
   finish_frame(time, number, xdmf::frame(time, xml));

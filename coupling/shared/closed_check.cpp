@@ -10,6 +10,7 @@
 
 #include "coupling/shared/error.hpp"
 #include "coupling/shared/sampling.hpp"
+#include "coupling/shared/text.hpp"
 
 namespace gasgrain {
 
@@ -18,12 +19,6 @@ namespace {
 constexpr int points = SampledDistance::brick_points;
 constexpr double lipschitz_tolerance = 1e-3;  // share of a spacing: files may hold rounded values
 constexpr double coefficient_excess = 0.75;   // second differences of kinks in three directions
-
-std::string text(const Vec3& x) {
-  std::ostringstream out;
-  out << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
-  return out.str();
-}
 
 Index3 next_in(Index3 index, int d) {
   ++index[d];

@@ -1,12 +1,12 @@
 #include "coupling/shared/config_table.hpp"
 
+#include <toml++/toml.h>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "coupling/shared/error.hpp"
 
@@ -22,14 +22,18 @@ std::string value_text(const toml::node& node) {
   }
   if (node.is_number()) {
     std::array<char, 32> number{};
-    return {number.data(),
-            std::to_chars(number.begin(), number.end(), *node.value<double>()).ptr};
+    return {number.data(), std::to_chars(number.begin(), number.end(), *node.value<double>()).ptr};
   }
   if (node.is_boolean()) return *node.value<bool>() ? "true" : "false";
   if (node.is_string()) return '"' + *node.value<std::string>() + '"';
   std::ostringstream out;  // dates and times
   node.visit([&](const auto& value) { out << value; });
   return out.str();
+}
+
+// "is 1.2, but must be": how a complaint about a value of the wrong kind begins.
+std::string instead_of(const toml::node& node) {
+  return "is " + (node.is_table() ? "a table" : value_text(node)) + ", but must be ";
 }
 
 bool holds_tables(const toml::array& array) {
@@ -52,19 +56,6 @@ void add_statements(std::vector<ConfigStatement>& statements, const toml::node& 
 }
 
 }  // namespace
-
-bool Range::contains(double value) const {
-  const bool above = lower_open ? value > lower : value >= lower;
-  const bool below = upper_open ? value < upper : value <= upper;
-  return above && below && std::isfinite(value);
-}
-
-std::string Range::text() const {
-  std::ostringstream out;
-  out << (lower_open || std::isinf(lower) ? "(" : "[") << lower << ", " << upper
-      << (upper_open || std::isinf(upper) ? ")" : "]");
-  return out.str();
-}
 
 struct ConfigTable::Document {
   std::string file;
@@ -97,8 +88,8 @@ ConfigTable ConfigTable::parse(const std::string& text, const std::string& file)
     document->root = toml::parse(text, file);
   } catch (const toml::parse_error& error) {
     std::ostringstream message;
-    message << file << ":" << error.source().begin.line << ": not valid TOML: "
-            << error.description();
+    message << file << ":" << error.source().begin.line
+            << ": not valid TOML: " << error.description();
     throw UserError(message.str());
   }
   auto node = std::make_shared<Node>();
@@ -118,12 +109,8 @@ ConfigTable ConfigTable::parse_file(const std::string& file) {
   return parse(text.str(), file);
 }
 
-const std::string& ConfigTable::file() const { return node_->document->file; }
-
-std::string ConfigTable::resolve_path(const std::string& path) const {
-  const std::filesystem::path given(path);
-  if (given.is_absolute()) return path;
-  return (std::filesystem::path(file()).parent_path() / given).string();
+const std::string& ConfigTable::file() const {
+  return node_->document->file;
 }
 
 std::string ConfigTable::where(const std::string& key) const {
@@ -138,11 +125,9 @@ std::string ConfigTable::where(const std::string& key) const {
   return out.str();
 }
 
-void ConfigTable::fail(const std::string& key, const std::string& message) const {
-  throw UserError(where(key) + ": " + message);
+bool ConfigTable::has(const std::string& key) const {
+  return node_->find(key) != nullptr;
 }
-
-bool ConfigTable::has(const std::string& key) const { return node_->find(key) != nullptr; }
 
 bool ConfigTable::is_list(const std::string& key) const {
   const toml::node* value = node_->find(key);
@@ -153,7 +138,8 @@ double ConfigTable::number(const std::string& key, const Range& allowed) const {
   const toml::node* value = node_->find(key);
   if (!value) fail(key, "is missing; give a number in " + allowed.text());
   const auto number = value->value<double>();
-  if (!number || value->is_boolean()) fail(key, "must be a number in " + allowed.text());
+  if (!number || value->is_boolean())
+    fail(key, instead_of(*value) + "a number in " + allowed.text());
   if (!allowed.contains(*number)) {
     std::ostringstream message;
     message << "is " << *number << ", but must be in " << allowed.text();
@@ -162,69 +148,37 @@ double ConfigTable::number(const std::string& key, const Range& allowed) const {
   return *number;
 }
 
-double ConfigTable::number_or(const std::string& key, double otherwise,
-                              const Range& allowed) const {
-  return has(key) ? number(key, allowed) : otherwise;
-}
-
 long ConfigTable::integer(const std::string& key, const Range& allowed) const {
   const toml::node* value = node_->find(key);
   if (!value) fail(key, "is missing; give an integer in " + allowed.text());
-  if (!value->is_integer()) fail(key, "must be an integer in " + allowed.text());
+  if (!value->is_integer()) fail(key, instead_of(*value) + "an integer in " + allowed.text());
   return std::lround(number(key, allowed));
-}
-
-long ConfigTable::integer_or(const std::string& key, long otherwise, const Range& allowed) const {
-  return has(key) ? integer(key, allowed) : otherwise;
 }
 
 bool ConfigTable::flag_or(const std::string& key, bool otherwise) const {
   const toml::node* value = node_->find(key);
   if (!value) return otherwise;
-  if (!value->is_boolean()) fail(key, "must be true or false");
+  if (!value->is_boolean()) fail(key, instead_of(*value) + "true or false");
   return *value->value<bool>();
 }
 
 std::string ConfigTable::text(const std::string& key) const {
   const toml::node* value = node_->find(key);
   if (!value) fail(key, "is missing; give a string");
-  if (!value->is_string()) fail(key, "must be a string in quotes");
+  if (!value->is_string()) fail(key, instead_of(*value) + "a string in quotes");
   return *value->value<std::string>();
-}
-
-std::string ConfigTable::text_or(const std::string& key, const std::string& otherwise) const {
-  return has(key) ? text(key) : otherwise;
-}
-
-std::string ConfigTable::choice(const std::string& key,
-                                const std::vector<std::string>& allowed) const {
-  std::string list;
-  for (const std::string& name : allowed) list += (list.empty() ? "" : ", ") + name;
-  if (!has(key)) fail(key, "is missing; give one of: " + list);
-  const std::string value = text(key);
-  for (const std::string& name : allowed) {
-    if (name == value) return value;
-  }
-  const std::string near = nearest_name(value, allowed.data(), allowed.data() + allowed.size());
-  fail(key, "is '" + value + "', but must be one of: " + list +
-                (near.empty() ? "" : "; did you mean '" + near + "'?"));
-}
-
-std::string ConfigTable::choice_or(const std::string& key, const std::string& otherwise,
-                                   const std::vector<std::string>& allowed) const {
-  return has(key) ? choice(key, allowed) : otherwise;
 }
 
 std::vector<double> ConfigTable::numbers(const std::string& key) const {
   const toml::node* value = node_->find(key);
   if (!value) fail(key, "is missing; give a list of numbers, such as [0, 0, 1]");
   const toml::array* array = value->as_array();
-  if (!array) fail(key, "must be a list of numbers, such as [0, 0, 1]");
+  if (!array) fail(key, instead_of(*value) + "a list of numbers, such as [0, 0, 1]");
   std::vector<double> result;
   for (const toml::node& item : *array) {
     const auto number = item.value<double>();
     if (!number || item.is_boolean() || !std::isfinite(*number)) {
-      fail(key, "must hold finite numbers only");
+      fail(key, "holds " + value_text(item) + ", but must hold finite numbers only");
     }
     result.push_back(*number);
   }
@@ -235,43 +189,19 @@ std::vector<std::string> ConfigTable::texts(const std::string& key) const {
   const toml::node* value = node_->find(key);
   if (!value) fail(key, "is missing; give a list of strings");
   const toml::array* array = value->as_array();
-  if (!array) fail(key, "must be a list of strings");
+  if (!array) fail(key, instead_of(*value) + "a list of strings");
   std::vector<std::string> result;
   for (const toml::node& item : *array) {
-    if (!item.is_string()) fail(key, "must hold strings only");
+    if (!item.is_string()) fail(key, "holds " + value_text(item) + ", but must hold strings only");
     result.push_back(*item.value<std::string>());
-  }
-  return result;
-}
-
-Vec3 ConfigTable::vector(const std::string& key) const {
-  const std::vector<double> values = numbers(key);
-  if (values.size() != 3) {
-    fail(key, "has " + std::to_string(values.size()) + " components, but must have 3");
-  }
-  return {values[0], values[1], values[2]};
-}
-
-Vec3 ConfigTable::vector_or(const std::string& key, const Vec3& otherwise) const {
-  return has(key) ? vector(key) : otherwise;
-}
-
-std::array<int, 3> ConfigTable::integers3(const std::string& key, const Range& allowed) const {
-  const Vec3 values = vector(key);
-  std::array<int, 3> result{};
-  for (int d = 0; d < 3; ++d) {
-    if (values[d] != std::round(values[d]) || !allowed.contains(values[d]) ||
-        std::abs(values[d]) > std::numeric_limits<int>::max()) {
-      fail(key, "must hold three integers in " + allowed.text());
-    }
-    result[d] = static_cast<int>(values[d]);
   }
   return result;
 }
 
 ConfigTable ConfigTable::table_or_empty(const std::string& key) const {
   const toml::node* value = node_->find(key);
-  if (value && !value->is_table()) fail(key, "must be a table: [" + node_->path + key + "]");
+  if (value && !value->is_table())
+    fail(key, instead_of(*value) + "a table: [" + node_->path + key + "]");
   auto node = std::make_shared<Node>();
   node->document = node_->document;
   node->table = value ? value->as_table() : nullptr;
@@ -288,10 +218,11 @@ std::vector<ConfigTable> ConfigTable::tables(const std::string& key) const {
   const toml::node* value = node_->find(key);
   if (!value) return {};
   const toml::array* array = value->as_array();
-  if (!array) fail(key, "must be a list of tables: [[" + node_->path + key + "]]");
+  const std::string expected = "a list of tables: [[" + node_->path + key + "]]";
+  if (!array) fail(key, instead_of(*value) + expected);
   std::vector<ConfigTable> result;
   for (const toml::node& item : *array) {
-    if (!item.is_table()) fail(key, "must be a list of tables: [[" + node_->path + key + "]]");
+    if (!item.is_table()) fail(key, instead_of(*value) + expected);
     auto node = std::make_shared<Node>();
     node->document = node_->document;
     node->table = item.as_table();
@@ -311,8 +242,7 @@ std::vector<std::string> ConfigTable::keys() const {
 
 std::vector<ConfigStatement> ConfigTable::statements() const {
   std::vector<ConfigStatement> result;
-  const std::string path =
-      node_->path.empty() ? "" : node_->path.substr(0, node_->path.size() - 1);
+  const std::string path = node_->path.empty() ? "" : node_->path.substr(0, node_->path.size() - 1);
   if (node_->table) add_statements(result, *node_->table, path);
   return result;
 }

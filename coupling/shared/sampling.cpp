@@ -15,6 +15,7 @@
 #include "coupling/shared/error.hpp"
 #include "coupling/shared/known_distance.hpp"
 #include "coupling/shared/parallel_for.hpp"
+#include "coupling/shared/text.hpp"
 
 namespace gasgrain {
 
@@ -26,12 +27,6 @@ constexpr double sharpest_bend = 0.3;    // spacings; of a radius of three spaci
 constexpr double most_blocks = 5e7;      // 400 MB of index
 constexpr double most_bricks = 2e9;      // they are numbered by 32 bits
 constexpr double compact_margin = 10.0;  // spacings beyond the band that samples may lie
-
-std::string text(const Vec3& x) {
-  std::ostringstream out;
-  out << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
-  return out.str();
-}
 
 Index3 index_of(std::size_t n, const Index3& size) {
   const std::size_t row = size[0], layer = row * size[1];

@@ -17,6 +17,10 @@ std::string text(const char* format, ...) {
   return result;
 }
 
+std::string text(const Vec3& x) {
+  return text("(%.6g, %.6g, %.6g)", x[0], x[1], x[2]);
+}
+
 std::string duration(double seconds) {
   if (!std::isfinite(seconds)) return "?";
   const long s = std::lround(seconds);
