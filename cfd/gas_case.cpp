@@ -5,6 +5,7 @@
 #include "cfd/time_step.hpp"
 #include "coupling/files/sdf_file.hpp"
 #include "coupling/shared/drag.hpp"
+#include "coupling/shared/text.hpp"
 
 namespace gasgrain::cfd {
 
@@ -23,7 +24,8 @@ Grid read_grid(const ConfigTable& table) {
   grid.upper = table.vector("upper");
   grid.cells = table.integers3("cells", {.lower = 1, .upper = 1e6});
   if (!((grid.upper - grid.lower).minCoeff() > 0.0)) {
-    table.fail("upper", "must exceed grid.lower in every component");
+    table.fail("upper", "is " + text(grid.upper) + ", but must exceed grid.lower = " +
+                            text(grid.lower) + " in every component");
   }
   return grid;
 }
@@ -134,7 +136,8 @@ FixedBed read_fixed_bed(const ConfigTable& file, const Grid& grid) {
   bed.upper = table.vector_or("upper", grid.upper);
   bed.drag = table.choice_or("drag", bed.drag, drag_closure_names());
   if (!((bed.upper - bed.lower).minCoeff() > 0.0)) {
-    table.fail("upper", "must exceed fixed_bed.lower in every component");
+    table.fail("upper", "is " + text(bed.upper) + ", but must exceed fixed_bed.lower = " +
+                            text(bed.lower) + " in every component");
   }
   return bed;
 }
@@ -184,7 +187,7 @@ Output read_output(const ConfigTable& table) {
 
 GasCase read_gas_case(const ConfigTable& file) {
   for (const char* key : {"grid", "gas", "boundary", "body", "numerics", "initial", "fixed_bed",
-                          "run", "output", "probe", "coupling", "grains"}) {
+                          "run", "output", "probe", "coupling"}) {
     file.has(key);
   }
   file.reject_unknown_keys();

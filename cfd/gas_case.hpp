@@ -94,7 +94,7 @@ struct GasCase {
   std::vector<ConfigStatement> statements;  // all that the case file says; empty without a file
 };
 
-// Reads all sections but [coupling] and [grains], which are left to the coupling. Throws UserError:
+// Reads all sections but [coupling], which is left to the coupling. Throws UserError:
 // another section, an unknown key, a value out of the range that docs/case_file.md gives for it.
 GasCase read_gas_case(const ConfigTable& file);
 

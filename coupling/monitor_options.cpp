@@ -20,6 +20,7 @@ FluxPlane read_plane(const ConfigTable& table, const cfd::Grid& grid) {
   plane.direction = table.choice("direction", {"x", "y", "z"})[0] - 'x';
   const int d = plane.direction;
   plane.position = table.number("position", {.lower = grid.lower[d], .upper = grid.upper[d]});
+  table.reject_unknown_keys();
   return plane;
 }
 

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "coupling/bubbles.hpp"
-#include "coupling/shared/error.hpp"
 #include "coupling_scene.hpp"
 #include "tests/gas_case_text.hpp"
+#include "tests/shared/error_checks.hpp"
 
 namespace gasgrain::coupling {
 namespace {
@@ -155,15 +155,18 @@ TEST(Monitors, mixing_index_is_low_for_layers_and_high_for_a_chequerboard) {
 }
 
 TEST(Monitors, options_refuse_what_they_do_not_know) {
-  for (const char* text :
-       {"[coupling.monitor]\nbubbles = 0.8\n", "[coupling.monitor]\nbubble_void_fraction = 1.2\n",
-        "[coupling.monitor]\nmixing = \"up\"\n",
-        "[coupling.monitor]\nplane = [{name = \"a\", direction = \"z\", "
-        "position = 1.0}]\n",
-        "[coupling.monitor]\nplane = [{name = \"a b\", direction = \"z\", "
-        "position = 0.01}]\n"}) {
-    EXPECT_THROW(CoupledCase{box_case(text)}, UserError) << text;
-  }
+  const auto expect = [](const std::string& text, const std::string& part) {
+    expect_contains(user_error([&] { CoupledCase{box_case("[coupling.monitor]\n" + text)}; }),
+                    part);
+  };
+  expect("bubbles = 0.8", "coupling.monitor.bubbles: is not a known key");
+  expect("bubble_void_fraction = 1.2", "bubble_void_fraction: is 1.2, but must be in");
+  expect("mixing = 'up'", "mixing: is 'up', but must be one of");
+  expect("plane = [{name = 'a', direction = 'z', position = 1.0}]",
+         "position: is 1, but must be in");
+  expect("plane = [{name = 'a', direction = 'z', position = 0.01, colour = 1}]",
+         "colour: is not a known key");
+  expect("plane = [{name = 'a b', direction = 'z', position = 0.01}]", "part of column names");
 }
 
 }  // namespace
