@@ -10,6 +10,7 @@
 
 #include "cfd/csv_table.hpp"
 #include "coupling/shared/error.hpp"
+#include "coupling/shared/text.hpp"
 
 namespace gasgrain::cfd {
 
@@ -90,7 +91,15 @@ void fill_lattice(InletProfile& profile, const CsvTable& csv, const std::array<i
       table.fail("profile_file", "has a velocity of " + std::to_string(velocity) +
                                      " m/s; an inlet blows inwards, give values >= 0");
     }
-    if (seen[place]) table.fail("profile_file", "gives a position twice");
+    if (seen[place]) {
+      std::string position;
+      for (int d = 0; d < 3; ++d) {
+        if (columns[d] < 0) continue;
+        position +=
+            (position.empty() ? "" : ", ") + axes[d] + " = " + text("%.6g m", row[columns[d]]);
+      }
+      table.fail("profile_file", "gives the position " + position + " twice; remove a row");
+    }
     seen[place] = true;
     profile.velocities[place] = velocity;
   }

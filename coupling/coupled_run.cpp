@@ -244,7 +244,9 @@ void CoupledRun::save(const std::string& path) {
 void CoupledRun::restore(const std::string& path) {
   Hdf5File file = Hdf5File::open(path, communicator_);
   if (!file.has_attribute("content") || file.text_attribute("content") != state_content)
-    throw UserError("'" + path + "' holds no state of a coupled run");
+    throw UserError("'" + path +
+                    "' holds no state of a coupled run; keep the files of a checkpoint " +
+                    "together, or start anew");
   cfd::StateFile archive(file, state_group, coupling_.gas().decomposition(),
                          cfd::StateDirection::restore);
   visit_state(archive);

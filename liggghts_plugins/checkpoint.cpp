@@ -76,16 +76,23 @@ struct RunRequest {
   throw UserError("gasgrain_checkpoint: " + message);
 }
 
+// The whole number that `where` needs.
+bigint step_of(const std::string& word, const std::string& where) {
+  const std::optional<bigint> number = whole_number(word.c_str());
+  if (!number) fail(where + " is '" + word + "', but must be a whole number of steps");
+  return *number;
+}
+
 RunRequest read_request(const LAMMPS& lmp, int count, char** words) {
   const bigint now = lmp.update->ntimestep;
-  const std::optional<bigint> steps = count > 0 ? whole_number(words[0]) : std::nullopt;
-  if (!steps) fail("`run` needs a number of steps");
-  RunRequest request{now, now + *steps, now, 0, "yes"};
+  if (count == 0) fail("`run` needs a number of steps");
+  const bigint steps = step_of(words[0], "`run`");
+  RunRequest request{now, now + steps, now, 0, "yes"};
   std::optional<bigint> begin, end;
   for (int n = 1; n < count; ++n) {
     const std::string word = words[n];
     if (word == "upto") {
-      request.last = *steps;
+      request.last = steps;
       continue;
     }
     if (word != "start" && word != "stop" && word != "post")
@@ -96,11 +103,11 @@ RunRequest read_request(const LAMMPS& lmp, int count, char** words) {
     if (word == "post")
       request.post = value;
     else
-      (word == "start" ? begin : end) = whole_number(value);
+      (word == "start" ? begin : end) = step_of(value, "`run` keyword " + word);
   }
   if (request.last < request.first)
     fail("`run " + std::string(words[0]) + " upto` ends before the present step " +
-         std::to_string(now));
+         std::to_string(now) + "; give that or a later one");
   request.begin = begin.value_or(request.first);
   request.end = end.value_or(request.last);
   return request;

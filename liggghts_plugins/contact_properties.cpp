@@ -54,9 +54,10 @@ class PairProperty {
     if (!property_) return otherwise;
     const double value = property_->compute_array(first_type - 1, second_type - 1);
     if (!allowed_.contains(value))
-      fail(first_type, second_type, value, "is not " + allowed_.text());
+      fail(first_type, second_type, value, "must be in " + allowed_.text());
     if (value != property_->compute_array(second_type - 1, first_type - 1))
-      fail(first_type, second_type, value, "differs from the value of the exchanged types");
+      fail(first_type, second_type, value,
+           "differs from the value of the exchanged types; state the same for both");
     return value;
   }
 

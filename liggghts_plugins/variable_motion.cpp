@@ -77,9 +77,12 @@ void VariableMotion::check(LAMMPS& lmp, const std::string& where) const {
   for (const std::string& name : names_) {
     if (name.empty()) continue;
     const int index = find(lmp, name);
-    if (index < 0) throw UserError(where + ": there is no variable '" + name + "'");
+    if (index < 0)
+      throw UserError(where + ": there is no variable '" + name + "'; define it by `variable " +
+                      name + " equal ...` before the first run");
     if (!lmp.input->variable->equalstyle(index))
-      throw UserError(where + ": variable '" + name + "' is not of style equal");
+      throw UserError(where + ": variable '" + name +
+                      "' is not of style equal, the only one that can move a wall");
   }
 }
 

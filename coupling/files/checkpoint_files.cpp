@@ -26,7 +26,9 @@ CheckpointFiles::CheckpointFiles(MPI_Comm comm, std::string directory, std::stri
     std::error_code error;
     fs::create_directories(directory_, error);
     if (error || !fs::is_directory(directory_)) {
-      throw UserError("cannot create the directory '" + directory_ + "' for checkpoints");
+      throw UserError("cannot create the directory '" + directory_ + "' for checkpoints: " +
+                      (error ? error.message() : "there is a file of that name") +
+                      "; give another one");
     }
   });
 }

@@ -60,11 +60,19 @@ std::string innermost_error() {
   return text;
 }
 
-[[noreturn]] void fail_at(const std::string& path, const std::string& action) {
+[[noreturn]] void fail_at(const std::string& path, const std::string& action,
+                          const std::string& remedy) {
   const std::string reason = innermost_error();
   throw UserError("HDF5 file '" + path + "': cannot " + action +
-                  (reason.empty() ? "" : " (" + reason + ")") +
-                  "; check that the path exists, is ours to write and the disk is not full");
+                  (reason.empty() ? "" : " (" + reason + ")") + "; " + remedy);
+}
+
+[[noreturn]] void fail_to_write(const std::string& path, const std::string& action) {
+  fail_at(path, action, "check that the path exists, is ours to write and the disk is not full");
+}
+
+[[noreturn]] void fail_to_read(const std::string& path, const std::string& action) {
+  fail_at(path, action, "check that it is the right file, readable and whole");
 }
 
 template <class T>
@@ -113,7 +121,7 @@ hid_t create_file(const std::string& path, const MPI_Comm* comm) {
   const QuietErrors quiet;
   const FileAccess access(comm);
   const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
-  if (id < 0) fail_at(path, "create the file");
+  if (id < 0) fail_to_write(path, "create the file");
   return id;
 }
 
@@ -121,7 +129,7 @@ hid_t open_file(const std::string& path, const MPI_Comm* comm) {
   const QuietErrors quiet;
   const FileAccess access(comm);
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
-  if (id < 0) fail_at(path, "open the file");
+  if (id < 0) fail_to_read(path, "open the file");
   return id;
 }
 
@@ -206,7 +214,7 @@ void Hdf5File::close() {
 }
 
 void Hdf5File::fail(const std::string& action) const {
-  fail_at(path_, action);
+  fail_to_write(path_, action);
 }
 
 void Hdf5File::check_block(const ArrayBlock& block) const {
@@ -283,11 +291,11 @@ template <class T>
 std::vector<T> Hdf5File::attribute(const std::string& name) const {
   const QuietErrors quiet;
   const Handle attribute(H5Aopen(id_, name.c_str(), H5P_DEFAULT), H5Aclose);
-  if (!attribute.valid()) fail("find attribute '" + name + "'");
+  if (!attribute.valid()) fail_to_read(path_, "find attribute '" + name + "'");
   const Handle space(H5Aget_space(attribute), H5Sclose);
   std::vector<T> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
   if (H5Aread(attribute, memory_type<T>(), values.data()) < 0) {
-    fail("read attribute '" + name + "'");
+    fail_to_read(path_, "read attribute '" + name + "'");
   }
   return values;
 }
@@ -295,12 +303,14 @@ std::vector<T> Hdf5File::attribute(const std::string& name) const {
 std::string Hdf5File::text_attribute(const std::string& name) const {
   const QuietErrors quiet;
   const Handle attribute(H5Aopen(id_, name.c_str(), H5P_DEFAULT), H5Aclose);
-  if (!attribute.valid()) fail("find attribute '" + name + "'");
+  if (!attribute.valid()) fail_to_read(path_, "find attribute '" + name + "'");
   const Handle type(H5Aget_type(attribute), H5Tclose);
   const std::size_t size = H5Tget_class(type) == H5T_STRING ? H5Tget_size(type) : 0;
-  if (size == 0 || H5Tis_variable_str(type) != 0) fail("read attribute '" + name + "' as text");
+  if (size == 0 || H5Tis_variable_str(type) != 0)
+    fail_to_read(path_, "read attribute '" + name + "' as text");
   std::string text(size, '\0');
-  if (H5Aread(attribute, type, text.data()) < 0) fail("read attribute '" + name + "'");
+  if (H5Aread(attribute, type, text.data()) < 0)
+    fail_to_read(path_, "read attribute '" + name + "'");
   text.resize(std::strlen(text.c_str()));
   return text;
 }
@@ -308,7 +318,7 @@ std::string Hdf5File::text_attribute(const std::string& name) const {
 std::vector<std::uint64_t> Hdf5File::size(const std::string& dataset) const {
   const QuietErrors quiet;
   const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!set.valid()) fail("find dataset '" + dataset + "'");
+  if (!set.valid()) fail_to_read(path_, "find dataset '" + dataset + "'");
   const Handle space(H5Dget_space(set), H5Sclose);
   std::vector<std::uint64_t> result(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
   H5Sget_simple_extent_dims(space, reinterpret_cast<hsize_t*>(result.data()), nullptr);
@@ -334,7 +344,8 @@ bool is_stored(hid_t file, const std::string& dataset, const ArrayBlock& block) 
 template <class T>
 void Hdf5File::read(const std::string& dataset, const ArrayBlock& block, T* values) const {
   check_block(block);
-  if (size(dataset) != block.global) fail("read dataset '" + dataset + "', its size differs");
+  if (size(dataset) != block.global)
+    fail_to_read(path_, "read dataset '" + dataset + "', its size differs");
   if (product(block.global) == 0) return;
   const QuietErrors quiet;
   const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
@@ -342,14 +353,15 @@ void Hdf5File::read(const std::string& dataset, const ArrayBlock& block, T* valu
   if (!set.valid() || !selection.valid ||
       H5Dread(set, memory_type<T>(), selection.memory, selection.file, selection.transfer, values) <
           0) {
-    fail("read dataset '" + dataset + "'");
+    fail_to_read(path_, "read dataset '" + dataset + "'");
   }
 }
 
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& dataset) const {
   const ArrayBlock block = ArrayBlock::whole(size(dataset));
-  if (!is_stored(id_, dataset, block)) fail("read dataset '" + dataset + "', its size is damaged");
+  if (!is_stored(id_, dataset, block))
+    fail_to_read(path_, "read dataset '" + dataset + "', its size is damaged");
   std::vector<T> values(product(block.global));
   read(dataset, block, values.data());
   return values;
@@ -358,13 +370,14 @@ std::vector<T> Hdf5File::read(const std::string& dataset) const {
 std::string Hdf5File::read_text(const std::string& dataset) const {
   const QuietErrors quiet;
   const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!set.valid()) fail("find text '" + dataset + "'");
+  if (!set.valid()) fail_to_read(path_, "find text '" + dataset + "'");
   const Handle type(H5Dget_type(set), H5Tclose);
   const std::size_t size = H5Tget_class(type) == H5T_STRING ? H5Tget_size(type) : 0;
-  if (size == 0 || H5Tis_variable_str(type) != 0) fail("read '" + dataset + "' as text");
+  if (size == 0 || H5Tis_variable_str(type) != 0)
+    fail_to_read(path_, "read '" + dataset + "' as text");
   std::string text(size, '\0');
   if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) {
-    fail("read text '" + dataset + "'");
+    fail_to_read(path_, "read text '" + dataset + "'");
   }
   text.resize(std::strlen(text.c_str()));
   return text;

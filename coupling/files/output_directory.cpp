@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 #include "coupling/files/collective_error.hpp"
@@ -39,7 +40,10 @@ OutputDirectory::OutputDirectory(MPI_Comm communicator, const std::string& direc
     make_output_directory(directory);
     path_ = directory + "/.running";
     lock_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (lock_ < 0) throw UserError("cannot write into the output directory '" + directory + "'");
+    if (lock_ < 0) {
+      throw UserError("cannot write into the output directory '" + directory +
+                      "': " + std::strerror(errno) + "; make it writable or give another one");
+    }
     const bool refused = flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     if (!refused && is_listed(lock_)) return;
     close(lock_);

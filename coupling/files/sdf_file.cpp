@@ -62,14 +62,17 @@ void check_header(const Hdf5File& file, const std::string& path) {
                     "; write it again with this program's gasgrain-sdf");
   }
   if (file.attribute<std::int64_t>("brick_points").at(0) != SampledDistance::brick_points)
-    throw UserError("SDF file '" + path + "' has bricks of another size; write it again");
+    throw UserError("SDF file '" + path + "' has bricks of another size than " +
+                    std::to_string(SampledDistance::brick_points) +
+                    " samples; write it again with gasgrain-sdf");
 }
 
 Interpolation interpolation_of(const Hdf5File& file, const std::string& path) {
   const std::string name = file.text_attribute("interpolation");
   for (const Interpolation known : {Interpolation::linear, Interpolation::quadratic})
     if (name == name_of(known)) return known;
-  throw UserError("SDF file '" + path + "': unknown interpolation '" + name + "'");
+  throw UserError("SDF file '" + path + "': unknown interpolation '" + name +
+                  "', known are linear and quadratic; write it again with gasgrain-sdf");
 }
 
 // One number of an attribute that must hold `count` of them.
@@ -78,7 +81,9 @@ std::vector<T> attribute(const Hdf5File& file, const std::string& path, const st
                          std::size_t count) {
   std::vector<T> values = file.attribute<T>(name);
   if (values.size() != count) {
-    throw UserError("SDF file '" + path + "': attribute '" + name + "' has the wrong size");
+    throw UserError("SDF file '" + path + "': attribute '" + name + "' holds " +
+                    std::to_string(values.size()) + " numbers instead of " + std::to_string(count) +
+                    "; the file is damaged, write it again with gasgrain-sdf");
   }
   return values;
 }
@@ -109,7 +114,9 @@ SampledDistance read_sdf(const std::string& path) {
   const std::vector<std::int64_t> bricks = attribute<std::int64_t>(file, path, "bricks", 3);
   for (int d = 0; d < 3; ++d) {
     if (bricks[d] < 1 || bricks[d] > std::numeric_limits<int>::max() / 8)
-      throw UserError("SDF file '" + path + "': attribute 'bricks' is not valid");
+      throw UserError("SDF file '" + path +
+                      "': attribute 'bricks' is not valid; the file is damaged, " +
+                      "write it again with gasgrain-sdf");
     data.bricks[d] = static_cast<int>(bricks[d]);
   }
   data.table = file.read<std::int32_t>("/blocks/table");

@@ -107,7 +107,10 @@ void write_slice_picture(const std::string& path, const SampledDistance& field, 
   std::ofstream file(path, std::ios::binary);
   file << "\x89PNG\r\n\x1a\n"
        << chunk("IHDR", header) << chunk("IDAT", stored_stream(lines)) << chunk("IEND", "");
-  if (!file.flush()) throw UserError("cannot write picture '" + path + "'");
+  if (!file.flush()) {
+    throw UserError("cannot write picture '" + path +
+                    "'; check that the directory exists, is writable and the disk is not full");
+  }
 }
 
 }  // namespace gasgrain

@@ -13,6 +13,7 @@
 #include "coupling/shared/primitives.hpp"
 #include "coupling/shared/sampling.hpp"
 #include "coupling/shared/stl_shape.hpp"
+#include "coupling/shared/text.hpp"
 
 namespace gasgrain {
 
@@ -31,7 +32,8 @@ Shape read_plane(const ConfigTable& table) {
 Shape read_box(const ConfigTable& table) {
   const Vec3 lower = table.vector("lower"), upper = table.vector("upper");
   if (!((upper - lower).minCoeff() > 0)) {
-    table.fail("upper", "must exceed `lower` in every component");
+    table.fail("upper", "is " + text(upper) + ", but must exceed `lower` = " + text(lower) +
+                            " in every component");
   }
   Box box{.center = 0.5 * (lower + upper), .half_size = 0.5 * (upper - lower)};
   if (table.has("rotation_angle") || table.has("rotation_axis")) {

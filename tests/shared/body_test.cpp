@@ -132,7 +132,7 @@ TEST(Body, EveryErrorNamesLineAndKey) {
   expect_contains(complaint("plane = {point=[0,0,0], normal=[0,0,0]}"),
                   "plane.normal: must not be zero");
   expect_contains(complaint("box = {lower=[0,0,0], upper=[1,0,1]}"),
-                  "box.upper: must exceed `lower`");
+                  "box.upper: is (1, 0, 1), but must exceed `lower` = (0, 0, 0)");
   expect_contains(complaint("cylinder = {start=[0,0,1], end=[0,0,1], radius=1}"),
                   "cylinder.end: must differ");
   expect_contains(complaint("cylinder = {point=[0,0,0], axis=[0,0,1], radius=1, half_length=-1}"),

@@ -57,17 +57,22 @@ TEST_F(GasTable, GivesDefaultsOnlyForAbsentKeys) {
 
 TEST_F(GasTable, ErrorsNameFileLineAndKey) {
   expect_contains(user_error([&] { gas.number("name"); }),
-                  "bed.toml:5: gas.name: must be a number");
+                  "bed.toml:5: gas.name: is \"air\", but must be a number in (-inf, inf)");
   expect_contains(user_error([&] { gas.number("absent"); }), "gas.absent: is missing");
   expect_contains(user_error([&] { gas.integer("density"); }),
-                  "bed.toml:2: gas.density: must be an integer");
-  expect_contains(user_error([&] { gas.text("density"); }), "gas.density");
-  expect_contains(user_error([&] { gas.flag_or("density", true); }), "gas.density");
-  expect_contains(user_error([&] { gas.vector("words"); }), "bed.toml:9: gas.words");
-  expect_contains(user_error([&] { gas.vector("mixed"); }), "finite numbers only");
-  expect_contains(user_error([&] { gas.texts("mixed"); }), "strings only");
-  expect_contains(user_error([&] { gas.integers3("velocity"); }), "three integers");
-  expect_contains(user_error([&] { gas.table("density"); }), "must be a table");
+                  "bed.toml:2: gas.density: is 1.2, but must be an integer");
+  expect_contains(user_error([&] { gas.text("density"); }), "is 1.2, but must be a string");
+  expect_contains(user_error([&] { gas.flag_or("density", true); }),
+                  "is 1.2, but must be true or false");
+  expect_contains(user_error([&] { gas.vector("words"); }),
+                  "bed.toml:9: gas.words: holds \"a\", but must hold finite numbers only");
+  expect_contains(user_error([&] { gas.vector("density"); }),
+                  "is 1.2, but must be a list of numbers");
+  expect_contains(user_error([&] { gas.texts("mixed"); }), "holds 1, but must hold strings only");
+  expect_contains(user_error([&] { gas.integers3("velocity"); }),
+                  "is [1, 2.5, 3], but must hold three integers");
+  expect_contains(user_error([&] { gas.table("density"); }),
+                  "is 1.2, but must be a table: [gas.density]");
 }
 
 TEST_F(GasTable, ErrorsOfRangesGiveValueAndRange) {
@@ -122,7 +127,9 @@ TEST(ConfigTable, CountsTheTablesOfAList) {
   ASSERT_EQ(bodies.size(), 2U);
   EXPECT_EQ(bodies[0].number("x"), 1);
   expect_contains(user_error([&] { bodies[1].number("x"); }), "bed.toml:4: body[2].x");
-  expect_contains(user_error([&] { parse("body = 1").tables("body"); }), "[[body]]");
+  expect_contains(user_error([&] { parse("body = 1").tables("body"); }),
+                  "is 1, but must be a list of tables: [[body]]");
+  expect_contains(user_error([&] { parse("[gas]").number("gas"); }), "is a table, but must be");
 }
 
 TEST(ConfigTable, SyntaxErrorsNameTheLine) {
@@ -146,11 +153,13 @@ TEST(ConfigTable, statements_are_all_that_a_file_says_under_their_full_keys) {
       "[run]\nend = 1\nstep = 0.1\n"
       "[[body]]\nname = 'a'\nsphere = {radius = 2.0, center = [1, 2.5, 3]}\n"
       "[[body]]\nname = 'b'\nfixed = true\n");
-  const std::vector<ConfigStatement> expected{
-      {"body[1].name", "\"a\""},          {"body[1].sphere.center", "[1, 2.5, 3]"},
-      {"body[1].sphere.radius", "2"},     {"body[2].fixed", "true"},
-      {"body[2].name", "\"b\""},          {"run.end", "1"},
-      {"run.step", "0.1"}};
+  const std::vector<ConfigStatement> expected{{"body[1].name", "\"a\""},
+                                              {"body[1].sphere.center", "[1, 2.5, 3]"},
+                                              {"body[1].sphere.radius", "2"},
+                                              {"body[2].fixed", "true"},
+                                              {"body[2].name", "\"b\""},
+                                              {"run.end", "1"},
+                                              {"run.step", "0.1"}};
   EXPECT_EQ(file.statements(), expected);
   EXPECT_EQ(file.table("run").statements().front().key, "run.end");
   EXPECT_TRUE(file.table_or_empty("absent").statements().empty());
