@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/cfd/gas_fixture.hpp"
+#include "tests/cfd/gas_scenes.hpp"
 
 namespace gasgrain::cfd {
 namespace {
@@ -13,15 +13,11 @@ using testing::bodies;
 using testing::box_case;
 using testing::set_moving_heap;
 using testing::set_sides;
-using testing::side;
 
 // Flow upwards past a cylinder and a sliding ball, grains moving about, one body for grains only.
 GasCase column() {
-  GasCase c = box_case(Vec3(1.0, 0.6, 2.0), {10, 6, 21});
-  c.gas = {.density = 1.2, .viscosity = 0.02, .gravity = Vec3(0.1, 0, -1.0)};
+  GasCase c = testing::draught(Vec3(1.0, 0.6, 2.0), {10, 6, 21});
   set_sides(c, 1, BoundaryType::slip);
-  c.boundaries[2][0] = testing::inlet(Vec3(0.1, 0, 0.5));
-  c.boundaries[2][1] = side(BoundaryType::outlet);
   c.bodies = bodies(
       "[[body]]\nname='a'\ncylinder={point=[0.05,0,0.7],axis=[0,1,0],radius=0.17}\n"
       "[[body]]\nname='g'\nacts_on=['grains']\nplane={point=[0,0,0],normal=[0,0,1]}\n"

@@ -1,52 +1,23 @@
-// The solver as a whole on small scenes: conservation, independence of the decomposition and of the
-// pressure method, and its errors. Accuracy is verified in tests/verification.
+// The solver as a whole on small scenes: conservation, independence of the decomposition, and its
+// errors. The pressure: gas_pressure_test.cpp. Accuracy is verified in tests/verification.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "coupling/shared/error.hpp"
-#include "tests/cfd/gas_fixture.hpp"
+#include "tests/cfd/gas_scenes.hpp"
+#include "tests/shared/error_checks.hpp"
 
 namespace gasgrain::cfd {
 namespace {
 
-using testing::bodies;
+using testing::bottle;
 using testing::box_case;
+using testing::expect_equal_fields;
+using testing::run_some_steps;
 using testing::set_moving_heap;
 using testing::set_sides;
-using testing::side;
-
-constexpr PressureMethod all_methods[] = {PressureMethod::multigrid, PressureMethod::hypre_pfmg,
-                                          PressureMethod::hypre_pfmg_rap, PressureMethod::hypre_smg,
-                                          PressureMethod::hypre_boomeramg};
-
-// Flow upwards past two bodies, with everything the equations have.
-GasCase tower() {
-  GasCase c = box_case(Vec3(1.0, 0.6, 2.0), {10, 6, 21});
-  c.gas = {.density = 1.2, .viscosity = 0.02, .gravity = Vec3(0.1, 0, -1.0)};
-  c.boundaries[0][0].wall_velocity = Vec3(0, 0.2, 0.1);
-  set_sides(c, 1, BoundaryType::slip);
-  c.boundaries[2][0] = testing::inlet(Vec3(0.1, 0, 0.5));
-  c.boundaries[2][1] = side(BoundaryType::outlet);
-  c.boundaries[2][1].pressure = 3.0;
-  c.bodies = bodies(
-      "[[body]]\nname='a'\ncylinder={point=[0.32,0,0.7],axis=[0,1,0],radius=0.17}\n"
-      "[[body]]\nname='b'\nsurface_velocity=[0,0.1,0]\nsphere={center=[0.7,0.3,1.2],radius=0.2}\n");
-  return c;
-}
-
-// A closed bottle: gas only inside a tilted cylinder with a sphere in it, cut cells everywhere.
-GasCase bottle() {
-  GasCase c = box_case(Vec3(1.0, 1.0, 1.5), {12, 11, 15});
-  c.gas = {.density = 1.2, .viscosity = 0.01, .gravity = Vec3(0, 0, -9.81)};
-  c.numerics.pressure_tolerance = 1e-13;
-  c.bodies = bodies(
-      "[[body]]\nname='wall'\ncomplement={cylinder={start=[0.5,0.5,0.11],end=[0.53,0.5,1.37],"
-      "radius=0.43}}\n"
-      "[[body]]\nname='ball'\nsphere={center=[0.45,0.5,0.5],radius=0.12}\n");
-  return c;
-}
+using testing::tower;
 
 TEST(GasSolver, momentum_budget_closes_to_round_off) {
   GasSolver solver(tower(), MPI_COMM_WORLD);
@@ -90,25 +61,6 @@ TEST(GasSolver, outflow_equals_inflow_minus_the_growth_of_the_voids) {
   EXPECT_EQ(report.removed_mean, 0.0);
 }
 
-TEST(GasSolver, sealed_bottle_with_moving_grains_is_continuous_to_round_off) {
-  for (const PressureMethod method : all_methods) {
-    GasCase c = bottle();
-    c.numerics.pressure_solver = method;
-    GasSolver solver(c, MPI_COMM_WORLD);
-    set_moving_heap(solver, 0.0, 0.35, 1000.0);
-    solver.accept_void_fraction_as_old();
-    for (int n = 1; n <= 5; ++n) {
-      set_moving_heap(solver, 0.03 * n, 0.35, 1000.0);
-      const StepReport report = solver.advance(2e-3);
-      EXPECT_TRUE(report.pressure.fallbacks == 0 || method == PressureMethod::hypre_pfmg_rap);
-      EXPECT_LT(report.divergence, 1e-12);
-      EXPECT_LT(report.removed_mean, 1e-12);
-      EXPECT_LT(testing::imbalance(report.momentum).norm(),
-                1e-12 * testing::turnover(report.momentum));
-    }
-  }
-}
-
 TEST(GasSolver, gas_at_rest_stays_at_rest_between_resting_grains) {
   GasCase c = bottle();
   c.bodies.clear();
@@ -120,41 +72,6 @@ TEST(GasSolver, gas_at_rest_stays_at_rest_between_resting_grains) {
   for (int n = 0; n < 3; ++n) report = solver.advance(1e-3);
   // the weight of 18 Pa of gas is carried by the pressure up to the round-off of its gradient
   EXPECT_LT(report.largest_speed, 1e-13);
-}
-
-// Largest difference of the owned values of `field` to the same cells of one rank's whole `serial`.
-double difference(const GasSolver& parallel, const Field& field, const Field& serial) {
-  const Block& block = parallel.decomposition().block();
-  double largest = 0.0;
-  for_each_cell(block.size, [&](int i, int j, int k) {
-    const double other = serial(i + block.lower[0], j + block.lower[1], k + block.lower[2]);
-    largest = std::max(largest, std::abs(field(i, j, k) - other));
-  });
-  return max_over_ranks(parallel.decomposition(), largest);
-}
-
-void run_some_steps(GasSolver& solver) {
-  set_moving_heap(solver, 0.0, 0.3, 40.0);
-  solver.accept_void_fraction_as_old();
-  for (int n = 1; n <= 10; ++n) {
-    set_moving_heap(solver, 0.02 * n, 0.3, 40.0);
-    solver.advance(1e-3);
-  }
-}
-
-void expect_equal_fields(const GasSolver& a, const GasSolver& b, double tolerance) {
-  double speed = 0.0, pressure = 0.0;
-  for_each_cell(a.pressure().size(), [&](int i, int j, int k) {
-    pressure = std::max(pressure, std::abs(a.pressure()(i, j, k)));
-    speed = std::max(speed, std::abs(a.velocity()[2](i, j, k)));
-  });
-  pressure = max_over_ranks(a.decomposition(), pressure);
-  speed = max_over_ranks(a.decomposition(), speed);
-  ASSERT_GT(speed, 0.1);
-  EXPECT_LT(difference(a, a.pressure(), b.pressure()), tolerance * pressure);
-  for (int d = 0; d < 3; ++d) {
-    EXPECT_LT(difference(a, a.velocity()[d], b.velocity()[d]), tolerance * speed) << d;
-  }
 }
 
 TEST(GasSolver, fields_do_not_depend_on_the_decomposition) {
@@ -179,59 +96,6 @@ TEST(GasSolver, fields_do_not_depend_on_how_thin_the_blocks_are) {
   expect_equal_fields(parallel, serial, 1e-8);
 }
 
-TEST(GasSolver, all_pressure_methods_give_the_same_fields) {
-  GasSolver multigrid(tower(), MPI_COMM_SELF);
-  run_some_steps(multigrid);
-  for (const PressureMethod method : all_methods) {
-    GasCase c = tower();
-    c.numerics.pressure_solver = method;
-    GasSolver solver(c, MPI_COMM_WORLD);
-    run_some_steps(solver);
-    expect_equal_fields(solver, multigrid, 1e-8);
-  }
-}
-
-TEST(GasSolver, a_missed_tolerance_falls_back_to_another_method_and_is_counted) {
-  GasSolver without_limit(tower(), MPI_COMM_SELF);
-  run_some_steps(without_limit);
-  for (const PressureFallback fallback :
-       {PressureFallback::hypre_boomeramg, PressureFallback::hypre_pfmg}) {
-    GasCase c = tower();
-    c.numerics.pressure_iterations = 1;
-    c.numerics.pressure_fallback = fallback;
-    GasSolver solver(c, MPI_COMM_WORLD);
-    set_moving_heap(solver, 0.0, 0.3, 40.0);
-    solver.accept_void_fraction_as_old();
-    for (int n = 1; n <= 10; ++n) {
-      set_moving_heap(solver, 0.02 * n, 0.3, 40.0);
-      const PressureReport report = solver.advance(1e-3).pressure;
-      EXPECT_EQ(report.fallbacks, 1);
-      EXPECT_GT(report.iterations, 2);
-      EXPECT_LE(report.residual, c.numerics.pressure_tolerance);
-    }
-    expect_equal_fields(solver, without_limit, 1e-8);
-  }
-}
-
-TEST(GasSolver, every_pressure_method_solves_periodic_and_one_dimensional_grids) {
-  for (const Index3& cells : {Index3{8, 1, 7}, Index3{1, 1, 12}, Index3{7, 9, 6}}) {
-    for (const PressureMethod method : all_methods) {
-      GasCase c = box_case(Vec3(1, 1, 1), cells);
-      c.numerics.pressure_solver = method;
-      set_sides(c, 0, BoundaryType::periodic);
-      set_sides(c, 1, BoundaryType::periodic);
-      GasSolver solver(c, MPI_COMM_SELF);
-      set_moving_heap(solver, 0.0, 0.3, 40.0);
-      solver.accept_void_fraction_as_old();
-      set_moving_heap(solver, 0.1, 0.3, 40.0);
-      const StepReport report = solver.advance(1e-4);
-      EXPECT_TRUE(report.pressure.fallbacks == 0 || method == PressureMethod::hypre_smg);
-      EXPECT_LT(report.divergence, 1e-10);
-      EXPECT_LT(report.removed_mean, 1e-12);
-    }
-  }
-}
-
 TEST(GasSolver, a_missing_direction_changes_nothing) {
   GasCase c = tower();
   c.bodies.resize(1);  // the cylinder along y
@@ -250,79 +114,10 @@ TEST(GasSolver, a_missing_direction_changes_nothing) {
   });
 }
 
-TEST(GasSolver, outlet_pressure_only_shifts_the_pressure) {
-  GasCase low = tower(), high = tower();
-  high.boundaries[2][1].pressure = low.boundaries[2][1].pressure + 100.0;
-  GasSolver a(low, MPI_COMM_WORLD), b(high, MPI_COMM_WORLD);
-  run_some_steps(a);
-  run_some_steps(b);
-  EXPECT_NEAR(b.side_pressure(2, 0) - a.side_pressure(2, 0), 100.0, 1e-5);
-  EXPECT_NEAR(b.side_flux(2, 1), a.side_flux(2, 1), 1e-7);
-}
-
-// A box cut in two by a plate; the upper chamber has an outlet.
-GasCase two_chambers() {
-  GasCase c = box_case(Vec3(1, 0.5, 2), {6, 3, 16});
-  c.boundaries[2][1] = side(BoundaryType::outlet);
-  c.bodies = bodies("[[body]]\nname='gate'\nbox={lower=[-1,-1,0.93],upper=[2,2,1.21]}\n");
-  return c;
-}
-
-struct ChamberPressures {
-  double sealed, vented, gate;  // means over cells, Pa; of |p| in the gate
-};
-
-ChamberPressures stirred_chambers(PressureMethod method, double outlet_pressure) {
-  GasCase c = two_chambers();
-  c.numerics.pressure_solver = method;
-  c.boundaries[0][0].wall_velocity = Vec3(0, 0, 1);  // stirs both
-  c.boundaries[2][1].pressure = outlet_pressure;
-  GasSolver solver(c, MPI_COMM_WORLD);
-  StepReport report;
-  for (int n = 0; n < 20; ++n) report = solver.advance(1e-3);
-  EXPECT_GT(report.largest_speed, 1e-2);
-  EXPECT_LT(report.removed_mean, 1e-12);
-  std::vector<double> sums(6, 0.0);  // and the numbers of cells
-  const int first_layer = solver.decomposition().block().lower[2];
-  for_each_cell(solver.pressure().size(), [&](int i, int j, int k) {
-    const double p = solver.pressure()(i, j, k);
-    const bool solid = solver.walls().wall_fraction(i, j, k) == 1.0;
-    const int part = solid ? 2 : k + first_layer < 8 ? 0 : 1;
-    sums[part] += solid ? std::abs(p) : p;
-    sums[3 + part] += 1.0;
-  });
-  sum_over_ranks(solver.decomposition(), sums);
-  return {sums[0] / sums[3], sums[1] / sums[4], sums[2] / sums[5]};
-}
-
-TEST(GasSolver, a_sealed_chamber_below_a_vented_one_has_its_own_mean_pressure) {
-  for (const PressureMethod method : all_methods) {
-    const ChamberPressures low = stirred_chambers(method, 7.0);
-    const ChamberPressures high = stirred_chambers(method, 107.0);
-    EXPECT_NEAR(low.sealed, 0.0, 1e-11);
-    EXPECT_NEAR(high.sealed, 0.0, 1e-11);
-    EXPECT_NEAR(high.vented - low.vented, 100.0, 1e-6);
-    EXPECT_EQ(low.gate, 0.0);
-  }
-}
-
 TEST(GasSolver, gas_blown_into_a_sealed_vessel_is_a_user_error_on_every_rank) {
   GasCase c = box_case(Vec3(1, 1, 1), {6, 6, 6});
   c.boundaries[2][0] = testing::inlet(Vec3(0, 0, 1));
-  try {
-    GasSolver solver(c, MPI_COMM_WORLD);
-    FAIL();
-  } catch (const UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("has no outlet"), std::string::npos) << error.what();
-  }
-}
-
-TEST(GasSolver, too_few_pressure_iterations_are_a_user_error) {
-  GasCase c = tower();
-  c.numerics.pressure_iterations = 1;
-  c.numerics.pressure_fallback = PressureFallback::none;
-  GasSolver solver(c, MPI_COMM_WORLD);
-  EXPECT_THROW(solver.advance(1e-3), UserError);
+  expect_contains(user_error([&] { GasSolver(c, MPI_COMM_WORLD); }), "has no outlet");
 }
 
 TEST(GasSolver, an_exploding_velocity_is_a_user_error_that_gives_time_and_step) {
@@ -330,12 +125,10 @@ TEST(GasSolver, an_exploding_velocity_is_a_user_error_that_gives_time_and_step) 
   for (int d = 0; d < 3; ++d) set_sides(c, d, BoundaryType::periodic);
   GasSolver solver(c, MPI_COMM_WORLD);
   solver.set_velocity([](const Vec3& x) { return Vec3(1e200 * std::sin(6 * x[0]), 0, 1e200); });
-  try {
+  const std::string error = user_error([&] {
     for (int n = 0; n < 3; ++n) solver.advance(1e-3);
-    FAIL();
-  } catch (const UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("1e+200"), std::string::npos) << error.what();
-  }
+  });
+  expect_contains(error, "1e+200");
 }
 
 TEST(GasSolver, grains_feel_the_opposite_of_what_the_gas_feels) {

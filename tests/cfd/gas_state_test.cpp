@@ -9,25 +9,22 @@
 
 #include "cfd/state_file.hpp"
 #include "coupling/shared/error.hpp"
-#include "tests/cfd/gas_fixture.hpp"
+#include "tests/cfd/gas_scenes.hpp"
+#include "tests/shared/error_checks.hpp"
 
 namespace gasgrain::cfd {
 namespace {
 
 using testing::bodies;
-using testing::box_case;
 using testing::set_moving_heap;
 using testing::set_sides;
 using testing::side;
 
 // An open vessel, periodic in y, with a body, a moving wall and an inlet.
 GasCase open_vessel() {
-  GasCase c = box_case(Vec3(1.0, 0.6, 1.2), {9, 6, 12});
-  c.gas = {.density = 1.2, .viscosity = 0.02, .gravity = Vec3(0.1, 0, -1.0)};
+  GasCase c = testing::draught(Vec3(1.0, 0.6, 1.2), {9, 6, 12});
   c.boundaries[0][0].wall_velocity = Vec3(0, 0.2, 0.1);
   set_sides(c, 1, BoundaryType::periodic);
-  c.boundaries[2][0] = testing::inlet(Vec3(0.1, 0, 0.5));
-  c.boundaries[2][1] = side(BoundaryType::outlet);
   c.bodies = bodies("[[body]]\nname='ball'\nsphere={center=[0.6,0.3,0.6],radius=0.2}\n");
   return c;
 }
@@ -210,7 +207,7 @@ TEST(GasState, of_another_grid_is_refused) {
   GasCase other = open_vessel();
   other.grid.cells[2] += 1;
   GasSolver larger(other, MPI_COMM_WORLD);
-  EXPECT_THROW(restore(larger, file.path()), UserError);
+  expect_contains(user_error([&] { restore(larger, file.path()); }), "its size differs");
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "coupling/shared/error.hpp"
 #include "tests/cfd/gas_fixture.hpp"
+#include "tests/shared/error_checks.hpp"
 
 namespace gasgrain::cfd {
 namespace {
@@ -186,13 +186,10 @@ TEST(Probe, of_a_body_is_its_load) {
 
 std::string error_of(const std::string& probe) {
   const Grid grid{.lower = Vec3::Zero(), .upper = Vec3(1, 1, 1), .cells = {2, 2, 2}};
-  try {
-    (void)read_probes(ConfigTable::parse(probe, "c.toml"), grid,
-                      bodies("[[body]]\nname='tube'\nsphere={center=[0,0,0],radius=0.2}\n"));
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
+  return user_error([&] {
+    read_probes(ConfigTable::parse(probe, "c.toml"), grid,
+                bodies("[[body]]\nname='tube'\nsphere={center=[0,0,0],radius=0.2}\n"));
+  });
 }
 
 TEST(ProbeCase, reads_every_kind) {
@@ -200,12 +197,12 @@ TEST(ProbeCase, reads_every_kind) {
                      "line={from=[0,0,0],to=[1,1,1],samples=9}\n[[probe]]\nname='c'\n"
                      "plane={direction='y',position=0.5}\n[[probe]]\nname='d'\n"
                      "box={lower=[0,0,0],upper=[1,1,1]}\n[[probe]]\nname='e'\nbody='tube'\n"),
-            "");
+            "no error");
 }
 
 TEST(ProbeCase, says_what_is_wrong) {
   const auto expect = [](const std::string& probe, const std::string& part) {
-    EXPECT_NE(error_of("[[probe]]\n" + probe).find(part), std::string::npos) << error_of(probe);
+    expect_contains(error_of("[[probe]]\n" + probe), part);
   };
   expect("name='a'\npoint=[0,0.5,1.1]", "outside the grid");
   expect("name='a'\nbody='tub'", "did you mean 'tube'");
@@ -214,7 +211,8 @@ TEST(ProbeCase, says_what_is_wrong) {
   expect("name='../a'\npoint=[0,0,0]", "part of a file name");
   expect("name='a'\npoint=[0,0,0]\n[[probe]]\nname='a'\npoint=[0,0,0]", "used twice");
   expect("name='a'\nplane={direction='w',position=0}", "must be one of: x, y, z");
-  expect("name='a'\nbox={lower=[0.5,0,0],upper=[0.5,1,1]}", "must exceed lower");
+  expect("name='a'\nbox={lower=[0.5,0,0],upper=[0.5,1,1]}",
+         "is (0.5, 1, 1), but must exceed lower = (0.5, 0, 0)");
   expect("name='a'\nline={from=[0,0,0],to=[1,1,1],sample=5}", "did you mean 'samples'");
 }
 

@@ -110,6 +110,11 @@ TEST(MeshDistance, ASelfIntersectingSurfaceHasTheSignOfItsUnion) {
       EXPECT_GT(mesh->distance(x), 0);
     }
   }
+  // two pyramids whose tips meet in the middle
+  for (const double z : {-0.4, -0.2, 0.2, 0.4}) {
+    EXPECT_LT(mesh->distance(Vec3(0, 0, z)), 0) << z;
+    EXPECT_GT(mesh->distance(Vec3(1.2 * std::abs(z), 0, z)), 0) << z;
+  }
 }
 
 TEST(MeshDistance, ASheetIsAWallAlongTheSurfaceWithItsOpenings) {

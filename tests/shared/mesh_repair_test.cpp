@@ -127,6 +127,7 @@ TEST(MeshRepair, CountsTrianglesWithoutArea) {
 // Any soup of triangles ends as surfaces without boundary.
 TEST(MeshRepair, AnySoupBecomesClosed) {
   std::mt19937 random{3};
+  int solids = 0;
   for (int n = 0; n < 300; ++n) {
     Triangles soup;
     for (int t = 0; t < 30; ++t) {
@@ -142,6 +143,7 @@ TEST(MeshRepair, AnySoupBecomesClosed) {
       continue;  // everything cancelled
     }
     for (const TriangleMesh& solid : mesh.solids) {
+      ++solids;
       Vec3 vector_area = Vec3::Zero();  // of a closed surface: zero
       for (std::size_t t = 0; t < solid.triangles.size(); ++t)
         vector_area += (solid.corner(t, 1) - solid.corner(t, 0))
@@ -150,6 +152,7 @@ TEST(MeshRepair, AnySoupBecomesClosed) {
       EXPECT_GE(enclosed_volume(solid), -1e-12);
     }
   }
+  EXPECT_GT(solids, 300);
 }
 
 }  // namespace
