@@ -23,6 +23,13 @@ fix m1 all property/global youngsModulus peratomtype 5e6
 fix m2 all property/global poissonsRatio peratomtype 0.45
 fix m3 all property/global coefficientRestitution peratomtypepair 1 0.6
 fix m4 all property/global coefficientFriction peratomtypepair 1 0.4
+
+pair_style gran model hertz tangential history
+pair_coeff * *
+timestep 1e-5
+fix gravity all gravity 9.81 vector 0 0 -1
+fix floor all wall/gran model hertz tangential history primitive type 1 zplane 0
+fix side all wall/gran model hertz tangential history primitive type 1 zcylinder 0.02 0 0
 """
 
 INSERTION = """
@@ -34,14 +41,7 @@ fix ins all insert/rate/region seed 86028121 distributiontemplate mix nparticles
     insert_every 500 overlapcheck yes vel constant 0 0 -0.5 region pour
 """
 
-POUR = HEAD + HERTZ + """
-pair_style gran model hertz tangential history
-pair_coeff * *
-timestep 1e-5
-fix gravity all gravity 9.81 vector 0 0 -1
-fix floor all wall/gran model hertz tangential history primitive type 1 zplane 0
-fix side all wall/gran model hertz tangential history primitive type 1 zcylinder 0.02 0 0
-""" + INSERTION + """
+POUR = HEAD + HERTZ + INSERTION + """
 fix integrate all nve/sphere
 compute spin all erotate/sphere
 thermo_style custom step atoms ke c_spin
@@ -61,12 +61,6 @@ read_restart pour.restart
 neighbor 0.001 bin
 neigh_modify delay 0
 """ + HERTZ + """
-pair_style gran model hertz tangential history
-pair_coeff * *
-timestep 1e-5
-fix gravity all gravity 9.81 vector 0 0 -1
-fix floor all wall/gran model hertz tangential history primitive type 1 zplane 0
-fix side all wall/gran model hertz tangential history primitive type 1 zcylinder 0.02 0 0
 fix integrate all nve/sphere
 thermo_style custom step atoms ke
 thermo 100
