@@ -3,7 +3,6 @@
 // Rows along x are padded to four numbers, so that sums over z and y work on whole rows.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 
 #include "coupling/shared/vec3.hpp"
