@@ -219,10 +219,13 @@ class SameBits(EngineTest):
     def test_continued_run(self):
         """On several ranks a mesh from a restart file has its triangles in another order; the stock
         loop, which sets every run up, adds loads of grains that touch two walls in that order."""
-        start = "gasgrain_engine fused\n" + self.TEXT + "gasgrain_checkpoint 300 points\n"
-        rest = dump_command("d", 900, FORCES) + "run 900 upto\n"
-        for ranks in (1, 2):
-            with self.subTest(ranks=ranks):
+        moving = self.TEXT.replace(
+            "fix walls", "fix turn all move/mesh mesh roof rotate origin 0.006 0.003 0 "
+            "axis 0 0 1 period 0.02\nfix walls")
+        for text, ranks in ((self.TEXT, 1), (self.TEXT, 2), (moving, 1)):
+            with self.subTest(ranks=ranks, moving=text is moving):
+                start = "gasgrain_engine fused\n" + text + "gasgrain_checkpoint 300 points\n"
+                rest = dump_command("d", 900, FORCES) + "run 900 upto\n"
                 bench = Bench(mesh_files(crowd()))
                 bench.run(start + rest, ranks=ranks)
                 expected = bench.frames("d.dump")[-1]

@@ -14,6 +14,7 @@ Programs:
     primitive  liggghts, tubes as primitive walls
     lammps     LAMMPS gran/hooke/history (Debian package lammps), tubes as a region
     unchanged  gasgrain with the script of `primitive`, fused
+    meshes     gasgrain with the script of `stock`, fused
     cgm        gasgrain, our law and SDF walls, engine off
     fused      the same, fused
     mixed      the same in mixed precision

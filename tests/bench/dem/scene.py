@@ -30,9 +30,11 @@ GRAINS_AT_SCALE_ONE = 250_000
 
 # Programs whose executable is not ours.
 STOCK_EXECUTABLE = {"stock": "liggghts", "primitive": "liggghts", "lammps": "lmp"}
-# Programs with stock's contact model, of which `unchanged` runs in gasgrain.
-STOCK_SCRIPT = ("stock", "primitive", "unchanged")
-ENGINE = {"unchanged": "gasgrain_engine fused\n", "cgm": "gasgrain_engine off\n",
+# Programs with stock's contact model; `unchanged` and `meshes` run in gasgrain.
+MESH_TUBES = ("stock", "meshes")
+STOCK_SCRIPT = (*MESH_TUBES, "primitive", "unchanged")
+ENGINE = {"unchanged": "gasgrain_engine fused\n", "meshes": "gasgrain_engine fused\n",
+          "cgm": "gasgrain_engine off\n",
           "fused": "gasgrain_engine fused\n",
           "mixed": "gasgrain_engine fused precision mixed\n"}
 
@@ -188,7 +190,7 @@ def styles(program, scene, stock_model):
     if program == "lammps":
         return lammps_styles(scene)
     if program in STOCK_SCRIPT:
-        return stock_styles(scene, stock_model, program == "stock")
+        return stock_styles(scene, stock_model, program in MESH_TUBES)
     return cgm_styles(scene)
 
 
