@@ -179,13 +179,21 @@ class Restart(unittest.TestCase):
         self.assertNotEqual(done.code, 0)
         self.assertIn("keyword every cannot be divided", done.text)
 
-    def test_drag_that_follows_the_grains_is_continued_too(self):
-        text = bed.case(coupling=EXCHANGE + 'drag_update = "dem-step"\n', interval=2e-3)
+    def assert_continued_after_400_steps_of_600(self, text):
         whole, parts = bed.bench(text), bed.bench(text)
         whole.run(start("run 600"), ranks=2)
         parts.run(start("run 400"), ranks=2)
         parts.run(go_on("run 600 upto"), ranks=2)
         self.assert_same(parts, whole)
+
+    def test_drag_that_follows_the_grains_is_continued_too(self):
+        self.assert_continued_after_400_steps_of_600(
+            bed.case(coupling=EXCHANGE + 'drag_update = "dem-step"\n', interval=2e-3))
+
+    def test_lagged_gradient_of_light_grains_and_viscous_stress_are_continued_too(self):
+        text = bed.case(coupling=EXCHANGE + "viscous_stress = true\n", interval=2e-3)
+        self.assert_continued_after_400_steps_of_600(
+            bed.changed(text, "density = 1\n", f"density = {bed.DENSITY / 20}\n"))
 
     def test_another_gas_is_refused(self):
         bench = bed.bench(case())
