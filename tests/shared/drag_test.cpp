@@ -186,6 +186,26 @@ TEST(DragClosures, TennetiIsTheFormulaInPrint) {
   EXPECT_NEAR(isolated + crowded + inertia, 22.33, 0.01);
 }
 
+// Likewise, at phi = 0.4 and Re = 100: 11.111 + 0.702 + 4.780 * 4.118 / 1.0398.
+TEST(DragClosures, BeetstraIsTheFormulaInPrint) {
+  const double rest = 10 * 0.4 / 0.36 + 0.36 * (1 + 1.5 * std::sqrt(0.4));
+  EXPECT_NEAR(dimensionless(drag_beetstra, 0.6, 0), 18 * 0.6 * rest, 1e-9);
+  EXPECT_NEAR(dimensionless(drag_beetstra, 0.6, 100) / (18 * 0.6), 30.74, 0.01);
+}
+
+// At phi = 0.2 and Re = 50: F0 = 4.4977 / 0.86228 = 5.2161, F3 = 0.0673 + 0.0424 + 0.0708.
+TEST(DragClosures, KochHillIsTheFormulaInPrint) {
+  EXPECT_NEAR(dimensionless(drag_koch_hill, 0.8, 0) / (18 * 0.64), 5.2161, 1e-3);
+  EXPECT_NEAR(dimensionless(drag_koch_hill, 0.8, 50) / (18 * 0.64), 5.2161 + 25 * 0.1805, 1e-3);
+}
+
+// At eps = 0.5 and Re = 100: C_D = 1.11^2, chi = 3.7 - 0.65 exp(-1/8) = 3.1264, and the force per
+// volume 3/4 C_D rho |u-v| eps^(2 - chi)/d0.
+TEST(DragClosures, DiFeliceIsTheFormulaInPrint) {
+  EXPECT_NEAR(dimensionless(drag_difelice, 0.5, 100),
+              0.75 * 1.11 * 1.11 * 100 * std::pow(0.5, 1 - 3.1264), 0.05);
+}
+
 TEST(DragClosures, BlendedGidaspowJoinsErgunAndWenYu) {
   const double below = dimensionless(drag_gidaspow, 0.8, 10);
   const double above = dimensionless(drag_gidaspow, 0.8 + 1e-12, 10);
