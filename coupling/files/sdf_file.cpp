@@ -1,4 +1,4 @@
-// SDF file, version 2: what BrickSamples holds, one attribute or dataset per member; arrays of the
+// SDF file, version 3: what BrickSamples holds, one attribute or dataset per member; arrays of the
 // grid have the slowest index (z) first. Format: docs/geometry.md.
 #include "coupling/files/sdf_file.hpp"
 
@@ -17,7 +17,7 @@ namespace gasgrain {
 namespace {
 
 constexpr const char* format_name = "gasgrain signed distance";
-constexpr std::int64_t format_version = 2;
+constexpr std::int64_t format_version = 3;
 
 const char* name_of(Interpolation interpolation) {
   return interpolation == Interpolation::linear ? "linear" : "quadratic";
@@ -41,9 +41,8 @@ void write_field(Hdf5File& file, const BrickSamples& data) {
   file.write("/blocks/far_value", blocks, data.block_value.data());
   constexpr std::uint64_t b = SampledDistance::block_bricks, p = SampledDistance::brick_points;
   const ArrayBlock bricks =
-      ArrayBlock::whole({data.slot.size() / SampledDistance::bricks_per_block, b, b, b});
-  file.write("/bricks/slot", bricks, data.slot.data());
-  file.write("/bricks/far_value", bricks, data.far_value.data());
+      ArrayBlock::whole({data.brick.size() / SampledDistance::bricks_per_block, b, b, b});
+  file.write("/bricks/entry", bricks, data.brick.data());
   const ArrayBlock samples = ArrayBlock::whole({data.stored_bricks(), p, p, p});
   if (data.quantum > 0)
     file.write("/samples", samples, data.compact_samples.data());
@@ -121,8 +120,7 @@ SampledDistance read_sdf(const std::string& path) {
   }
   data.table = file.read<std::int32_t>("/blocks/table");
   data.block_value = file.read<float>("/blocks/far_value");
-  data.slot = file.read<std::int32_t>("/bricks/slot");
-  data.far_value = file.read<float>("/bricks/far_value");
+  data.brick = file.read<std::int32_t>("/bricks/entry");
   if (data.quantum > 0)
     data.compact_samples = file.read<std::int16_t>("/samples");
   else

@@ -32,7 +32,7 @@ bool all_finite(const std::vector<float>& values) {
 bool is_consistent(std::int32_t index, std::size_t count, float bound, double band) {
   constexpr double rounding = 1e-6;
   if (index >= 0) return static_cast<std::size_t>(index) < count;
-  return std::abs(bound) >= (1 - rounding) * band;
+  return std::isfinite(bound) && std::abs(bound) >= (1 - rounding) * band;
 }
 
 void check(const BrickSamples& data) {
@@ -45,8 +45,7 @@ void check(const BrickSamples& data) {
   const std::size_t blocks = static_cast<std::size_t>(n[0]) * n[1] * n[2];
   require(data.table.size() == blocks && data.block_value.size() == blocks,
           "block index has the wrong size");
-  require(data.slot.size() % SampledDistance::bricks_per_block == 0 &&
-              data.far_value.size() == data.slot.size(),
+  require(data.brick.size() % SampledDistance::bricks_per_block == 0,
           "brick index has the wrong size");
   require(
       (data.samples.size() + data.compact_samples.size()) % SampledDistance::samples_per_brick ==
@@ -55,15 +54,14 @@ void check(const BrickSamples& data) {
       "samples are not whole bricks");
   require(std::isfinite(data.quantum) && (data.quantum > 0 || data.compact_samples.empty()),
           "quantum of the samples is not valid");
-  const std::size_t tables = data.slot.size() / SampledDistance::bricks_per_block;
+  const std::size_t tables = data.brick.size() / SampledDistance::bricks_per_block;
   for (std::size_t b = 0; b < blocks; ++b)
     require(is_consistent(data.table[b], tables, data.block_value[b], data.band),
             "block index points beyond the bricks, or a far block lies within the band");
-  for (std::size_t b = 0; b < data.slot.size(); ++b)
-    require(is_consistent(data.slot[b], data.stored_bricks(), data.far_value[b], data.band),
+  for (const std::int32_t entry : data.brick)
+    require(is_consistent(entry, data.stored_bricks(), bound_of_far_brick(entry), data.band),
             "brick index points beyond the samples, or a far brick lies within the band");
-  require(all_finite(data.block_value) && all_finite(data.far_value) && all_finite(data.samples),
-          "a sample is not finite");
+  require(all_finite(data.block_value) && all_finite(data.samples), "a sample is not finite");
 }
 
 }  // namespace
@@ -94,8 +92,9 @@ double SampledDistance::steepest_gradient() const {
 }
 
 std::size_t SampledDistance::memory() const {
-  return (data_.table.size() + data_.slot.size()) * (sizeof(std::int32_t) + sizeof(float)) +
-         data_.samples.size() * sizeof(float) + data_.compact_samples.size() * sizeof(std::int16_t);
+  return data_.table.size() * (sizeof(std::int32_t) + sizeof(float)) +
+         data_.brick.size() * sizeof(std::int32_t) + data_.samples.size() * sizeof(float) +
+         data_.compact_samples.size() * sizeof(std::int16_t);
 }
 
 double SampledDistance::stored(std::int32_t slot, const Index3& point) const {

@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -40,6 +41,15 @@ enum class Interpolation { linear, quadratic };
 
 using Index3 = std::array<int, 3>;
 
+// Entry of a brick that is not stored, in place of a place in the samples: minus (the top bit) the
+// upper 31 bits of a bound of phi (m), which lose a rounding towards zero and remain a bound.
+inline std::int32_t far_brick(float bound) {
+  return static_cast<std::int32_t>(0x80000000u | (std::bit_cast<std::uint32_t>(bound) >> 1));
+}
+inline float bound_of_far_brick(std::int32_t entry) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(entry) << 1);
+}
+
 // What a file stores. x runs fastest, in blocks, in bricks of a block, in samples of a brick.
 struct BrickSamples {
   Vec3 lower = Vec3::Zero();  // lower corner of the box; one layer of samples lies outside of it, m
@@ -48,11 +58,11 @@ struct BrickSamples {
   bool cut = false;           // the body may end at the sides of the sampled box
   Interpolation interpolation = Interpolation::linear;
   Index3 bricks{};                  // number in each direction
-  std::vector<std::int32_t> table;  // per block: which part of `slot` is its own, or -1: far block
+  std::vector<std::int32_t> table;  // per block: which part of `brick` is its own, or -1: far block
   std::vector<float> block_value;   // per far block: sign and lower bound, m; else 0
-  std::vector<std::int32_t> slot;   // 512 per block with bricks: place in the samples, or -1
-  std::vector<float> far_value;  // the same for bricks that are not stored: lower bound, m; else 0
-  std::vector<float> samples;    // 64 per stored brick, m; empty when they are compact
+  std::vector<std::int32_t>
+      brick;                   // 512 per block with bricks: place in the samples, or far_brick()
+  std::vector<float> samples;  // 64 per stored brick, m; empty when they are compact
   std::vector<std::int16_t> compact_samples;  // the same in units of `quantum`
   double quantum = 0.0;                       // m; 0: samples are not compact
 
@@ -151,7 +161,8 @@ inline SampledDistance::Brick SampledDistance::brick(const Index3& brick) const 
       static_cast<std::size_t>(table) * bricks_per_block +
       ((brick[2] % block_bricks) * block_bricks + brick[1] % block_bricks) * block_bricks +
       brick[0] % block_bricks;
-  return {data_.slot[n], data_.far_value[n]};
+  const std::int32_t entry = data_.brick[n];
+  return {entry, entry < 0 ? bound_of_far_brick(entry) : 0.0f};
 }
 
 }  // namespace gasgrain

@@ -111,7 +111,7 @@ class Sampler {
     }
   }
 
-  // The brick of that place in `slot`.
+  // The brick of that place in `brick`.
   Index3 brick_at(std::size_t n) const {
     const Index3 block = index_of(divided_[n / SampledDistance::bricks_per_block], data_.blocks());
     Index3 brick = index_of(n % SampledDistance::bricks_per_block, cube(bricks_per_side));
@@ -121,25 +121,24 @@ class Sampler {
 
   void choose_bricks() {
     constexpr std::size_t size = SampledDistance::bricks_per_block;
-    data_.slot.assign(divided_.size() * size, -1);
-    data_.far_value.assign(data_.slot.size(), 0.0f);
+    data_.brick.resize(divided_.size() * size);
     for_each_in_parallel(divided_.size(), effort_, 0.05, 0.15, [&](std::size_t t) {
       for (std::size_t n = t * size; n < (t + 1) * size; ++n) {
         const Index3 brick = brick_at(n);
-        data_.far_value[n] =
-            far_value({brick[0] * points, brick[1] * points, brick[2] * points}, points);
+        data_.brick[n] =
+            far_brick(far_value({brick[0] * points, brick[1] * points, brick[2] * points}, points));
       }
     });
     std::size_t stored = 0;
-    for (std::size_t n = 0; n < data_.slot.size(); ++n) {
-      if (data_.far_value[n] != 0.0f) continue;
+    for (std::size_t n = 0; n < data_.brick.size(); ++n) {
+      if (bound_of_far_brick(data_.brick[n]) != 0.0f) continue;
       const Index3 brick = brick_at(n);
       const bool exists =
           brick[0] < data_.bricks[0] && brick[1] < data_.bricks[1] && brick[2] < data_.bricks[2];
       if (exists)
-        data_.slot[n] = static_cast<std::int32_t>(stored++);
+        data_.brick[n] = static_cast<std::int32_t>(stored++);
       else
-        data_.far_value[n] = static_cast<float>(2 * data_.band);  // beyond the box, never asked for
+        data_.brick[n] = far_brick(static_cast<float>(2 * data_.band));  // never asked for
     }
     if (static_cast<double>(stored) > most_bricks)
       throw UserError("sampling needs " + std::to_string(stored) +
@@ -155,7 +154,7 @@ class Sampler {
     constexpr std::size_t size = SampledDistance::bricks_per_block;
     for_each_in_parallel(divided_.size(), effort_, 0.15, 1.0, [&](std::size_t t) {
       for (std::size_t n = t * size; n < (t + 1) * size; ++n)
-        if (data_.slot[n] >= 0) fill_brick(brick_at(n), data_.slot[n]);
+        if (data_.brick[n] >= 0) fill_brick(brick_at(n), data_.brick[n]);
     });
   }
 

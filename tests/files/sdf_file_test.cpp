@@ -65,8 +65,7 @@ void expect_same(const SampledDistance& written, const SampledDistance& read) {
   EXPECT_EQ(a.bricks, b.bricks);
   expect_same_bits(a.table, b.table);
   expect_same_bits(a.block_value, b.block_value);
-  expect_same_bits(a.slot, b.slot);
-  expect_same_bits(a.far_value, b.far_value);
+  expect_same_bits(a.brick, b.brick);
   expect_same_bits(a.samples, b.samples);
   expect_same_bits(a.compact_samples, b.compact_samples);
   for (const double x : {-3.0, -0.2, 0.0, 0.11, 0.4, 0.8, 5.0}) {
@@ -131,9 +130,9 @@ TEST_F(SdfFile, RefusesOtherFiles) {
   expect_contains(user_error([&] { read_sdf(path("other.h5")); }), "no SDF file of gasgrain");
   Hdf5File newer = Hdf5File::create(path("newer.h5"));
   newer.write_attribute("format", std::string("gasgrain signed distance"));
-  newer.write_attribute<std::int64_t>("version", {3});
+  newer.write_attribute<std::int64_t>("version", {4});
   newer.close();
-  expect_contains(user_error([&] { read_sdf(path("newer.h5")); }), "has version 3");
+  expect_contains(user_error([&] { read_sdf(path("newer.h5")); }), "has version 4");
 }
 
 TEST_F(SdfFile, RefusesATruncatedFile) {

@@ -234,11 +234,21 @@ TEST(SampledDistance, MemoryFollowsTheArea) {
   EXPECT_LT(large * std::pow(2.5 / 0.08, 2), 4.0 * 1024 * 1024 * 1024);
 }
 
+TEST(SampledDistance, BoundOfAFarBrickRemainsABound) {
+  for (const float bound : {0.3f, -0.3f, 1e-6f, -1.0e5f, 0.0f}) {
+    const std::int32_t entry = far_brick(bound);
+    EXPECT_LT(entry, 0);
+    const float kept = bound_of_far_brick(entry);
+    EXPECT_LE(std::abs(kept), std::abs(bound));
+    EXPECT_NEAR(kept, bound, 2.4e-7 * std::abs(bound));
+  }
+}
+
 TEST(SampledDistance, RejectsDataThatDoNotFitEachOther) {
   BrickSamples good = sampled(ball, 0.1, 0.2).data();
   EXPECT_NO_THROW(SampledDistance{good});
   BrickSamples bad = good;
-  bad.slot.pop_back();
+  bad.brick.pop_back();
   EXPECT_THROW(SampledDistance{bad}, UserError);
   bad = good;
   bad.samples.pop_back();
@@ -250,8 +260,13 @@ TEST(SampledDistance, RejectsDataThatDoNotFitEachOther) {
   bad.table[0] = 1 << 20;
   EXPECT_THROW(SampledDistance{bad}, UserError);
   bad = good;
-  *std::max_element(bad.slot.begin(), bad.slot.end()) += 1;
+  *std::max_element(bad.brick.begin(), bad.brick.end()) += 1;
   EXPECT_THROW(SampledDistance{bad}, UserError);
+  for (const float bound : {0.1f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
+    bad = good;
+    *std::min_element(bad.brick.begin(), bad.brick.end()) = far_brick(bound);
+    EXPECT_THROW(SampledDistance{bad}, UserError) << bound;
+  }
   bad = good;
   bad.spacing = 0;
   EXPECT_THROW(SampledDistance{bad}, UserError);

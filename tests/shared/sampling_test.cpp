@@ -84,7 +84,7 @@ TEST(Sampling, DoesNotDependOnTheNumberOfThreads) {
   const SampledDistance shared = sample_shape(
       *ball, box, {.threads = 3, .progress = [&](double share) { told = std::max(told, share); }});
   EXPECT_EQ(alone.data().samples, shared.data().samples);
-  EXPECT_EQ(alone.data().slot, shared.data().slot);
+  EXPECT_EQ(alone.data().brick, shared.data().brick);
   EXPECT_NEAR(told, 1.0, 1e-12);
 }
 
@@ -110,9 +110,11 @@ TEST(Sampling, RejectsAWrongSignOfOneBrick) {
                                            .band = 0.1,
                                            .cut = false})
                           .data();
-  const auto inside = std::min_element(data.far_value.begin(), data.far_value.end());
-  ASSERT_LT(*inside, 0);
-  *inside = -*inside;
+  const auto inside = std::find_if(data.brick.begin(), data.brick.end(), [](std::int32_t entry) {
+    return entry < 0 && bound_of_far_brick(entry) < 0;
+  });
+  ASSERT_NE(inside, data.brick.end());
+  *inside = far_brick(-bound_of_far_brick(*inside));
   EXPECT_NE(complaint(SampledDistance(data)).find("jumps from"), std::string::npos);
 }
 
