@@ -12,6 +12,8 @@
 
 namespace gasgrain::cfd {
 
+struct MultigridLevel;
+
 class Multigrid {
  public:
   // Collective. Plans the levels; they depend on the grid and its blocks only.
@@ -26,14 +28,13 @@ class Multigrid {
   void apply(const Field& residual, double scale, Field& result);
 
  private:
-  struct Level;
   struct Coarsest;
 
   void factor_coarsest();
   void cycle(std::size_t level);
 
   const Decomposition& decomposition_;
-  std::vector<std::unique_ptr<Level>> levels_;
+  std::vector<std::unique_ptr<MultigridLevel>> levels_;
   std::unique_ptr<Coarsest> coarsest_;
 };
 
