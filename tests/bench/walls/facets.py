@@ -254,8 +254,8 @@ def plot(path, table):
         bars = plane.barh(names, values, color=colours, xerr=spread, ecolor="black")
         if column == "energy":
             plane.set_xscale("log")
-        else:
-            plane.bar_label(bars, fmt="%.3f", label_type="center", color="white")
+        if column == "amplitude":
+            plane.bar_label(bars, fmt="%.2f", label_type="center", color="white")
         plane.set_xlabel(label)
     axes[0].invert_yaxis()
     figure.savefig(path, dpi=110)
