@@ -218,12 +218,14 @@ int write_field(const Options& options) {
 
   std::printf("written        %s, from %s\n", options.output.c_str(), subject.name.c_str());
   print_field(*field);
+  std::fputs("measuring the solid volume\n", stderr);
   const int halvings = halvings_of_cells(*field, 2);
   const double volume = volume_in_box(*field, *field, std::min(halvings, 1), options.threads);
   const double finer =
       volume_in_box(*subject.shape, *field, std::max(halvings, 1), options.threads);
   std::printf("solid volume   %.8g m^3 in the box, %+.2e of a finer estimate (%.8g m^3)\n", volume,
               (volume - finer) / finer, finer);
+  std::fputs("measuring walls and gaps\n", stderr);
   print_features(*subject.shape, *field);
   draw(options, *field);
   return 0;
