@@ -37,14 +37,17 @@ def case():
 
 def frames(bench):
     """Text of every whole frame. Of the step at which a job was continued the first one: the
-    set-up of a run shows the forces of the step to come."""
+    set-up of a run shows the forces of the step to come. A killed job may have ended within a
+    frame, in the middle of a line; the next job wrote on from there."""
     text = (bench.directory / "grains.dump").read_text()
     found, before = {}, -1
     for part in text.split("ITEM: TIMESTEP\n")[1:]:
-        step = int(part.split("\n", 1)[0])
-        whole = len(part.splitlines()) == 8 + int(part.split("\n", 3)[2])
-        if whole and not (step <= before and step in found):
-            found[step] = part
+        lines = part.splitlines()
+        if len(lines) < 3 or len(lines) < 8 + int(lines[2] or 0):
+            continue
+        step = int(lines[0])
+        if not (step <= before and step in found):
+            found[step] = lines[:8 + int(lines[2])]
         before = step
     return found
 
@@ -69,6 +72,43 @@ def kill_processes_in(directory):
 
 def files(bench):
     return sorted(os.listdir(bench.directory / "points"))
+
+
+def latest_step(bench):
+    """Of the last complete checkpoint; 0 before there is one."""
+    try:
+        return int(os.readlink(bench.directory / "points" / "latest.restart").split(".")[1])
+    except FileNotFoundError:
+        return 0
+
+
+def names_of_points(bench):
+    points = bench.directory / "points"
+    return files(bench) if points.exists() else []
+
+
+def rows_so_far(bench):
+    series = bench.directory / "out" / "timeseries.csv"
+    return len(series.read_text().splitlines()) if series.exists() else 0
+
+
+def newer(bench, pattern):
+    """Of the points' names those of steps after the last complete checkpoint."""
+    found = [re.fullmatch(pattern, name) for name in names_of_points(bench)]
+    return [match[0] for match in found if match and int(match[1]) > latest_step(bench)]
+
+
+# Whether the job has come so far; step: of the last checkpoint when it began, rows: of the series.
+MOMENTS = {
+    "before the first checkpoint": lambda bench, step, rows: rows_so_far(bench) > 1,
+    "gas half written": lambda bench, step, rows: newer(bench, r"gas\.(\d+)\.state\.h5\.partial"),
+    "grains half written": lambda bench, step, rows: (
+        newer(bench, r"gas\.(\d+)\.state\.h5") and newer(bench, r"grains\.(\d+)\.restart\.partial")),
+    "whole files without a link": lambda bench, step, rows: newer(bench, r"grains\.(\d+)\.restart"),
+    "right after a checkpoint": lambda bench, step, rows: latest_step(bench) > step,
+    "between two checkpoints": lambda bench, step, rows: (latest_step(bench) > step
+                                                          and rows_so_far(bench) > rows + 10),
+}
 
 
 # mpirun kills the ranks so many seconds after it has handed on SIGTERM, and always waits as long; its
@@ -121,8 +161,7 @@ class Restart(unittest.TestCase):
         process.kill()
         process.communicate()
         self.wait_for(lambda: not kill_processes_in(bench.directory))
-        latest = os.readlink(bench.directory / "points" / "latest.restart")
-        step = int(latest.split(".")[1])
+        step = latest_step(bench)
         # 400 if the kill came before the gas of 600 was written
         self.assertGreaterEqual(step, 400)
         end = step + 400
@@ -131,17 +170,60 @@ class Restart(unittest.TestCase):
         kept, expected = frames(bench), frames(whole)
         self.assertEqual({n: kept[n] for n in expected}, expected)
 
-    def test_signal_writes_a_checkpoint_and_says_how_to_go_on(self):
+    def test_killed_at_any_moment_a_job_continues_with_the_same_bits(self):
+        """One job after the other is killed; all together they are one run."""
         bench = bed.bench(case())
-        process = self.start_process(bench, start("run 100000000", every=1000000), 2)
-        self.wait_for(lambda: (bench.directory / "out" / "timeseries.csv").exists() and len(
-            (bench.directory / "out" / "timeseries.csv").read_text().splitlines()) > 20)
-        process.send_signal(signal.SIGTERM)
+        for has_come in MOMENTS.values():
+            self.kill_once(has_come, bench, self.next_script(bench, "run 100000000"))
+        end = max(500, latest_step(bench) + 100)
+        bench.run(self.next_script(bench, f"run {end} upto"))
+        whole = bed.bench(case())
+        whole.run(start(f"run {end}", every=50))
+        self.assert_same(bench, whole)
+
+    def next_script(self, bench, runs):
+        if latest_step(bench) > 0:
+            return go_on(runs, every=50)
+        return start(runs, every=50)
+
+    def kill_once(self, has_come, bench, script, seconds=4):
+        """The job runs in slices, between which it is looked at while it stands still: the kill hits
+        what was seen. A moment that is too short to be seen becomes any other."""
+        step, rows = latest_step(bench), rows_so_far(bench)
+        (bench.directory / "in.script").write_text(script)
+        process = subprocess.Popen([GASGRAIN, "-in", "in.script", "-log", "log.txt"],
+                                   cwd=bench.directory, env=ENVIRONMENT, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            time.sleep(0.002)
+            process.send_signal(signal.SIGSTOP)
+            stop = os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
+            self.assertEqual(stop.si_code, os.CLD_STOPPED, "the job ended by itself")
+            if has_come(bench, step, rows):
+                break
+            process.send_signal(signal.SIGCONT)
+        process.kill()
+        process.wait()
+
+    def test_sigterm_writes_a_checkpoint_and_says_how_to_go_on(self):
+        self.assert_signal_writes_a_checkpoint(signal.SIGTERM, ranks=2)
+
+    def test_sigint_writes_a_checkpoint_and_says_how_to_go_on(self):
+        # mpirun ends its ranks by SIGTERM when it gets SIGINT
+        self.assert_signal_writes_a_checkpoint(signal.SIGINT, ranks=1)
+        self.assert_signal_writes_a_checkpoint(signal.SIGINT, ranks=2)
+
+    def assert_signal_writes_a_checkpoint(self, number, ranks):
+        bench = bed.bench(case())
+        process = self.start_process(bench, start("run 100000000", every=1000000), ranks)
+        self.wait_for(lambda: rows_so_far(bench) > 20)
+        process.send_signal(number)
         text = process.communicate(timeout=120)[0]
         self.assertIn("Ended by a signal at step", text)
         self.assertIn("read_restart points/latest.restart", text)
         before = len(bed.series(bench.directory))
-        bench.run(go_on("run 500", every=1000000), ranks=2)
+        bench.run(go_on("run 500", every=1000000), ranks=ranks)
         rows = bed.series(bench.directory)
         times = [row["time"] for row in rows]
         self.assertGreater(len(rows), before)
@@ -215,9 +297,11 @@ class Restart(unittest.TestCase):
 
     def start_process(self, bench, script, ranks):
         (bench.directory / "in.script").write_text(script)
+        command = [GASGRAIN, "-in", "in.script"]
+        if ranks > 1:
+            command = [MPIEXEC, "--oversubscribe", "-n", str(ranks), *command]
         return subprocess.Popen(
-            [MPIEXEC, "--oversubscribe", "-n", str(ranks), GASGRAIN, "-in", "in.script"],
-            cwd=bench.directory, env={**ENVIRONMENT, **PATIENCE}, stdin=subprocess.DEVNULL,
+            command, cwd=bench.directory, env={**ENVIRONMENT, **PATIENCE}, stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def wait_for(self, condition, seconds=120):
