@@ -12,7 +12,8 @@
 //
 // What the grains received since the last exchange differs from what the gas gave when the interval
 // changed its length, or when their drag followed their velocities: the difference is carried per
-// grain (GrainRecord::carried) and given back to the gas in 4.
+// grain (GrainRecord::carried) and given back in 4, that of intervals by gas and grains together
+// (owed_impulse.cpp).
 //
 // D spreads and D^T gathers with one set of weights, and the solver spreads cell values to faces
 // with the shares by which it samples faces at cells. So sum F_drag dt is the momentum that the gas
@@ -20,6 +21,8 @@
 // cell deep) hold the gas at the wall's velocity: there the drag goes to the wall. When the
 // interval exceeds the gas solver's largest step, it is divided: eps changes linearly, and the
 // grains see the means of u and of their share of grad p (cfd/felt_gradient.cpp).
+//
+// 3, 4 and 6, what grains and gas give each other, are in drag_exchange.cpp.
 #include "coupling/gas_coupling.hpp"
 
 #include <algorithm>
@@ -145,6 +148,7 @@ void GasCoupling::visit_state(cfd::StateArchive& archive) {
     archive.cells("felt_pressure_gradient_" + axis, pressure_gradient_[d]);
     if (options_.viscous_stress) archive.cells("viscous_force_" + axis, viscous_force_[d]);
   }
+  owed_.visit_state(archive, void_fraction_.size());
   if (!archive.restores()) return;
   deposition_.set_walls(gas_.walls());
   find_closed_cells();
@@ -175,19 +179,23 @@ void GasCoupling::adapt_kernel() {
   deposition_.set_width(kernel_width_, kernel_diameter_);
 }
 
-void GasCoupling::find_lightest_grains() {
+// The lightest grains, and whether any received more or less than the gas gave.
+void GasCoupling::survey_grains() {
   if (options_.feedback == Feedback::one_way) return;
-  double largest = 0.0;
-  for (const GrainRecord& grain : transfer_.received())
-    largest = std::max(largest, options_.drag.density * grain.volume / grain.mass);
-  allreduce({&largest, 1}, MPI_MAX, gas_.decomposition().communicator());
-  gas_.grains().density_ratio = largest;
+  std::array<double, 2> largest{};
+  for (const GrainRecord& grain : transfer_.received()) {
+    largest[0] = std::max(largest[0], options_.drag.density * grain.volume / grain.mass);
+    if (!grain.carried.isZero(0.0)) largest[1] = 1.0;
+  }
+  allreduce(largest, MPI_MAX, gas_.decomposition().communicator());
+  gas_.grains().density_ratio = largest[0];
+  is_owed_ = largest[1] > 0;
 }
 
 void GasCoupling::send_grains_to_gas_ranks(std::span<const GrainRecord> grains) {
   transfer_.send(grains);
   adapt_kernel();
-  find_lightest_grains();
+  survey_grains();
   const std::vector<GrainRecord>& received = transfer_.received();
   std::vector<Vec3> positions(received.size());
   for (std::size_t n = 0; n < received.size(); ++n) positions[n] = received[n].position;
@@ -223,71 +231,6 @@ void GasCoupling::deposit_void_fraction() {
       << mapping_name(options_.mapping) << ", coupling.kernel_width " << kernel_width_
       << " m here): check the packing or widen the kernel";
   throw UserError(message.str());
-}
-
-// V and V/d0 spread alike; their ratio around a grain is the Sauter mean diameter of the originals.
-void GasCoupling::gather_sauter_diameters() {
-  const std::vector<GrainRecord>& grains = transfer_.received();
-  std::vector<std::array<double, 2>> amounts(grains.size());
-  for (std::size_t n = 0; n < grains.size(); ++n)
-    amounts[n] = {grains[n].volume, grains[n].volume / grains[n].original_diameter};
-  cfd::Field volume(void_fraction_.size()), surface(void_fraction_.size());
-  deposition_.deposit<2>({&volume, &surface}, amounts);
-  deposition_.gather<2>(amounts, {&volume, &surface});
-  sauter_diameters_.resize(grains.size());
-  for (std::size_t n = 0; n < grains.size(); ++n) {
-    const auto& [v, s] = amounts[n];
-    sauter_diameters_[n] = s > 0 ? v / s : grains[n].original_diameter;
-  }
-}
-
-void GasCoupling::evaluate_drag() {
-  if (options_.drag.mixture) gather_sauter_diameters();
-  const std::vector<GrainRecord>& grains = transfer_.received();
-  std::vector<std::array<double, 4>> gathered(grains.size());
-  deposition_.gather<4>(gathered, {&void_fraction_, &velocity_[0], &velocity_[1], &velocity_[2]});
-  coefficients_.assign(grains.size(), 0.0);
-  void_fractions_.resize(grains.size());
-  for (std::size_t n = 0; n < grains.size(); ++n) {
-    const auto& [around, u, v, w] = gathered[n];
-    void_fractions_[n] = around;
-    if (!deposition_.takes_part(n)) continue;
-    SurroundingGas gas{around, {u, v, w}};
-    if (options_.drag.mixture) gas.sauter_diameter = sauter_diameters_[n];
-    coefficients_[n] = exchange_coefficient(grains[n], gas, options_.drag);
-    if (void_fraction_is_limited(gas, options_.drag)) ++report_.limited;
-  }
-}
-
-// Of the mixture's viscous force each phase has its share of the volume: grains (1 - eps), which is
-// V per grain, the gas eps. The gas solver computes all of it; deposit_drag() takes W from the gas.
-void GasCoupling::evaluate_viscous_force() {
-  if (!options_.viscous_stress) return;
-  const std::vector<GrainRecord>& grains = transfer_.received();
-  std::vector<std::array<double, 3>> gathered(grains.size());
-  deposition_.gather<3>(gathered, {&viscous_force_[0], &viscous_force_[1], &viscous_force_[2]});
-  viscous_.resize(grains.size());
-  for (std::size_t n = 0; n < grains.size(); ++n) {
-    const auto& [x, y, z] = gathered[n];
-    viscous_[n] = grains[n].volume * Vec3(x, y, z);
-  }
-}
-
-// In units of B v: what the grains carry is given back over the interval.
-void GasCoupling::deposit_drag(double interval) {
-  if (options_.feedback == Feedback::one_way) return;
-  const std::vector<GrainRecord>& grains = transfer_.received();
-  std::vector<std::array<double, 4>> amounts(grains.size());
-  for (std::size_t n = 0; n < grains.size(); ++n) {
-    Vec3 momentum = coefficients_[n] * grains[n].velocity;
-    if (interval > 0) momentum -= grains[n].carried / interval;
-    if (options_.viscous_stress) momentum -= viscous_[n];
-    amounts[n] = {coefficients_[n], momentum[0], momentum[1], momentum[2]};
-  }
-  cfd::GrainPhase& phase = gas_.grains();
-  deposition_.deposit<4>({&phase.momentum_exchange, &phase.exchange_momentum[0],
-                          &phase.exchange_momentum[1], &phase.exchange_momentum[2]},
-                         amounts);
 }
 
 // Equal steps that the gas would need for that time now.
@@ -329,43 +272,6 @@ void GasCoupling::advance_gas(double interval) {
   report_.interval = interval;
   report_.gas_seconds = MPI_Wtime() - start;
   add_drag_on_walls(interval);
-}
-
-// What the drag gives to walls: the momentum of cells' directions without a free face.
-void GasCoupling::add_drag_on_walls(double interval) {
-  if (options_.feedback == Feedback::one_way) return;
-  const cfd::GrainPhase& phase = gas_.grains();
-  const cfd::WallGeometry& walls = gas_.walls();
-  const cfd::Index3 size = gas_.decomposition().block().size;
-  const double volume = gas_.decomposition().grid().cell_volume();
-  for (int d = 0; d < 3; ++d) {
-    if (!has_closed_cells_[d]) continue;
-    double force = 0;
-    cfd::for_each_cell(size, [&](int i, int j, int k) {
-      const std::ptrdiff_t n = void_fraction_.index(i, j, k);
-      if (walls.lower_share[d][n] + walls.upper_share[d][n] + walls.host[d][n] > 0) return;
-      force += deposition_.open_fraction()[n] *
-               (phase.exchange_momentum[d][n] - phase.momentum_exchange[n] * velocity_[d][n]);
-    });
-    report_.drag_on_walls[d] += interval * volume * force;
-  }
-}
-
-void GasCoupling::gather_forces() {
-  const std::vector<GrainRecord>& grains = transfer_.received();
-  std::vector<std::array<double, 6>> gathered(grains.size());
-  const cfd::VectorField &u = velocity_, &p = pressure_gradient_;
-  deposition_.gather<6>(gathered, {&u[0], &u[1], &u[2], &p[0], &p[1], &p[2]});
-  drag_.resize(grains.size());
-  pressure_.resize(grains.size());
-  forces_.resize(grains.size());
-  for (std::size_t n = 0; n < grains.size(); ++n) {
-    const auto& g = gathered[n];
-    drag_[n] = coefficients_[n] * (Vec3(g[0], g[1], g[2]) - grains[n].velocity);
-    if (options_.viscous_stress) drag_[n] += viscous_[n];
-    pressure_[n] = -grains[n].volume * Vec3(g[3], g[4], g[5]);
-    forces_[n] = drag_[n] + pressure_[n];
-  }
 }
 
 }  // namespace gasgrain::coupling

@@ -13,6 +13,7 @@
 #include "coupling/coupling_options.hpp"
 #include "coupling/exchange_report.hpp"
 #include "coupling/grain_transfer.hpp"
+#include "coupling/owed_impulse.hpp"
 #include "coupling/void_fraction.hpp"
 
 namespace gasgrain::coupling {
@@ -49,18 +50,20 @@ class GasCoupling {
   void move_bodies(double interval);
   void find_closed_cells();
   void adapt_kernel();
-  void find_lightest_grains();
+  void survey_grains();
   void send_grains_to_gas_ranks(std::span<const GrainRecord> grains);
   void deposit_void_fraction();
   void gather_sauter_diameters();
   void evaluate_drag();
   void evaluate_viscous_force();
   void deposit_drag(double interval);
+  void give_back_owed_impulse(double interval);
   int steps_for(double time) const;
   void advance_gas(double interval);
   void add_drag_on_walls(double interval);
   double wall_motion_limit() const;
   void gather_forces();
+  void add_owed_force();
   // Completes the report by what the ranks add up to; coupling/exchange_report.cpp.
   void measure(double interval);
 
@@ -85,6 +88,8 @@ class GasCoupling {
   std::array<bool, 3> has_closed_cells_{};         // open cells of this rank without a free face
   cfd::VectorField velocity_, pressure_gradient_;  // as the grains see them: means over gas steps
   cfd::VectorField viscous_force_;  // div(eps tau) after the last gas step, N/m^3; empty without it
+  OwedImpulse owed_;                // because of intervals that changed their length, drag held
+  bool is_owed_ = false;            // grains carry an impulse into this exchange
   ExchangeReport report_;           // of the exchange under way, this rank's part
 };
 
