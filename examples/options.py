@@ -74,8 +74,10 @@ def add_start_up(parser, default):
     add_number(parser, "--start-up", "T", "time that the means leave out, s", default)
 
 
-def add_closures(parser, friction):
+def add_closures(parser, friction, restitution):
     add_number(parser, "--friction", "MU", "coefficient of friction", friction)
+    add_number(parser, "--restitution", "E", "coefficient of restitution, above 0.05 and at most 1",
+               restitution)
     add_number(parser, "--kernel", "MM", "standard deviation of the kernel, mm (default: the larger "
                "of 0.8 cells and 1.2 grains)")
     parser.add_argument("--mapping", metavar="NAME", help="of grains to cells (default: the spline, "
@@ -98,6 +100,11 @@ def require(parser, chosen, lowest):
         if not (value >= bound if bound else value > 0):
             parser.error(f"--{name.replace('_', '-')} is {value:g}, but must be "
                          + (f"at least {bound:g}" if bound else "positive"))
+
+
+def require_restitution(parser, chosen):
+    if not 0.05 < chosen.restitution <= 1:
+        parser.error(f"--restitution is {chosen.restitution:g}, but must lie in (0.05, 1]")
 
 
 def require_start_up(parser, chosen):

@@ -3,6 +3,7 @@
 #include <atom.h>
 #include <comm.h>
 #include <domain.h>
+#include <error.h>
 #include <modify.h>
 #include <mpi.h>
 #include <neighbor.h>
@@ -51,6 +52,9 @@ FixWallSdf::FixWallSdf(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char** a
   extvector = 1;
   restart_peratom = 1;
   create_attribute = 1;
+  // else LIGGGHTS calls set_arrays() for all atoms in the first set-up, after pre_neighbor(), and the
+  // springs' places would be forgotten
+  just_created = 0;
   // a wall that sweeps asks for new lists before it comes to grains that are no candidates
   force_reneighbor = body.motion.sweeps() || motion_.by_variable.exists() ? 1 : 0;
   restart_global = motion_.by_variable.exists() ? 1 : 0;
@@ -246,14 +250,32 @@ void FixWallSdf::post_force(int) {
     impulse_.start(load_.force);
   else
     impulse_.add_step(load_.force, update->dt);
-  contact_statistics().note(load_.largest);
+  note_load();
 }
 
 void FixWallSdf::record_step(const WallLoad& load) {
   load_ = load;
   totals_valid_ = false;
   impulse_.add_step(load_.force, update->dt);
+  note_load();
+}
+
+void FixWallSdf::note_load() {
   contact_statistics().note(load_.largest);
+  unsure_contacts_ += load_.unsure_contacts;
+}
+
+void FixWallSdf::post_run() {
+  double sum = 0.0;
+  MPI_Allreduce(&unsure_contacts_, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
+  unsure_contacts_ = 0.0;
+  if (sum == 0.0 || comm->me != 0) return;
+  std::ostringstream message;
+  message << where_ << ": " << sum << " times (steps and grains) the place of body '"
+          << wall_.body().name
+          << "' nearest to a grain was not found, and the nearest one seen was taken; sample the "
+             "body more finely where hollows are as narrow as the grains";
+  error->warning(FLERR, message.str().c_str());
 }
 
 template <TangentialModel tangential>

@@ -44,6 +44,7 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   void setup_pre_neighbor() override { pre_neighbor(); }
   void pre_neighbor() override;
   void post_force(int vflag) override;
+  void post_run() override;
   double compute_vector(int index) override;
   int min_type() override { return wall_.wall_type(); }
   int max_type() override { return wall_.wall_type(); }
@@ -97,6 +98,7 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   void refuse_unresolved_grains() const;
   void take_motion(Body& body, const char* case_file) const;
   void carry_wall();
+  void note_load();
   template <TangentialModel tangential>
   void apply_contacts(const TangentialStep& step);
   Vec3 spring_of(int i) const { return place_[i] < 0 ? Vec3(Vec3::Zero()) : springs_[place_[i]]; }
@@ -116,6 +118,7 @@ class FixWallSdf : public LAMMPS_NS::Fix, public GrainWall {
   std::vector<LocalWalls> local_walls_;  // around the candidates
   std::vector<int> place_;               // of an atom's spring in springs_; -1: none
   WallLoad load_;
+  double unsure_contacts_ = 0.0;  // of this rank since they were last reported
   std::array<double, 8> totals_{};  // over all ranks
   bool totals_valid_ = false;
   WallImpulse impulse_;

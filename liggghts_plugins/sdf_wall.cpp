@@ -82,7 +82,11 @@ SdfWall::Contacts SdfWall::find_contacts(const GrainAtWall& grain, LocalWalls& w
   }
   walls.come_to(*body_.shape, x, grain.radius);
   way = walls.way_left(x);
-  for (int n = 0; n < walls.count(); ++n) add(walls.seen_from(x, n));
+  for (int n = 0; n < walls.count(); ++n) {
+    const int before = contacts.count;
+    add(walls.seen_from(x, n));
+    if (contacts.count > before && !walls.foot_found(n)) ++contacts.unsure;
+  }
   return contacts;
 }
 
@@ -91,6 +95,7 @@ WallTouch SdfWall::touch(const GrainAtWall& grain, LocalWalls& walls, Vec3& disp
                          const TangentialStep& step, WallLoad& load) {
   WallTouch result;
   const Contacts contacts = find_contacts(grain, walls, result.way);
+  load.unsure_contacts += contacts.unsure;
   if (contacts.count > 1 || (contacts.count == 1 && edge_springs(grain.tag))) {
     touch_edge<tangential>(grain, contacts, displacement, step, result, load);
   } else if (contacts.count == 1) {

@@ -30,6 +30,7 @@ struct WallLoad {
   Vec3 force = Vec3::Zero();   // on the body, N
   Vec3 torque = Vec3::Zero();  // on the body about its torque point, N m
   double contacts = 0;
+  double unsure_contacts = 0;  // with walls whose nearest place was not found
   LargestOverlap largest;
 };
 
@@ -103,6 +104,7 @@ class SdfWall {
  private:
   struct Contacts {
     int count = 0;
+    int unsure = 0;
     std::array<DistanceSample, NearSurfaces::most> wall;
   };
 

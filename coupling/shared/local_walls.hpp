@@ -35,6 +35,8 @@ class LocalWalls {
     const Vec3 s = x - from_, bend = wall.curvature * s;
     return {wall.distance + s.dot(wall.gradient + 0.5 * bend), wall.gradient + bend};
   }
+  // Whether the place of wall n that is nearest to the ball was found (NearWall::foot_found).
+  bool foot_found(int n) const { return (n == 0 ? first_ : others_[n - 1]).foot_found; }
   // How far the ball can go before it may touch a wall that is not among those, m.
   double way_left(const Vec3& x) const { return way_ - (x - from_).norm(); }
 

@@ -14,7 +14,8 @@ inline constexpr double same_normal = 0.94;
 struct NearWall : DistanceSample {
   double way = 0.0;  // m; so far around the point gradient and curvature tell the distance; 0: only
                      // there, and the curvature is not set
-  Mat3 curvature;    // second derivatives of the distance, 1/m
+  bool foot_found = true;  // false: the search was given up at the nearest place so far
+  Mat3 curvature;          // second derivatives of the distance, 1/m
 
   NearWall() = default;
   explicit NearWall(const DistanceSample& sample) : DistanceSample(sample) {}

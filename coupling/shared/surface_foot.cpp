@@ -145,6 +145,7 @@ std::optional<Foot> find_foot(const SampledDistance& field, const Vec3& x, const
     foot += step - (height + sag) * frame.n;
     trusted = std::min(2 * trusted, longest_move * spacing);
   }
+  if (reached) reached->wall.foot_found = false;
   return reached;
 }
 

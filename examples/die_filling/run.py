@@ -15,7 +15,6 @@ import options  # noqa: E402
 import pieces  # noqa: E402
 import plot  # noqa: E402
 
-RESTITUTION, FRICTION = 0.9, 0.3  # not printed: those of the fluidized bed
 LOOSE = 0.26  # solid fraction from which the grains fall into a packing
 SHOE_AREA = math.pi * 0.025**2  # m^2
 
@@ -64,7 +63,8 @@ def given_options():
                        "0.8 to 1.6, by case")
     options.add_number(parser, "--gas-step", "S", "largest gas step, s", "1e-4; 5e-5 with --paper")
     options.add_number(parser, "--cell", "MM", "cell of the gas, mm", "2.5")
-    options.add_closures(parser, FRICTION)
+    # The paper does not print them: those of the fluidized bed.
+    options.add_closures(parser, friction=0.3, restitution=0.9)
     options.add_pieces(parser, "die_filling_CASE")
     chosen = parser.parse_args()
     case = CASES[chosen.case]
@@ -76,6 +76,7 @@ def given_options():
                      "gas_step": 1e-4})
     options.require(parser, chosen, {"grain": 1, "ranks": 1, "time": 0, "spring": 0, "gas_step": 0,
                                      "cell": 0, "hours": 0})
+    options.require_restitution(parser, chosen)
     if 2 * powder.radius * chosen.grain > 3e-3:
         parser.error(f"--grain is {chosen.grain:g}: grains above 3 mm do not fit a die of 25 mm")
     return chosen
@@ -98,7 +99,7 @@ def make_job(case, chosen, out):
     """Writes script and case into `out`; prints what will be run."""
     powder = case.powder
     exchange = 2 * chosen.gas_step
-    duration = grains.contact_time(powder.radius, powder.density, chosen.spring, RESTITUTION)
+    duration = grains.contact_time(powder.radius, powder.density, chosen.spring, chosen.restitution)
     step = grains.time_step(duration, exchange)
     original = case.grains * powder.ratio**3
     count = round(original / chosen.grain**3)
@@ -117,7 +118,7 @@ def make_job(case, chosen, out):
     (out / "fill.in").write_text((HERE / "fill.in").read_text())
     return pieces.Job(out, "fill.in", {
         "l": chosen.grain, "count": count, "radius": powder.radius, "density": powder.density,
-        "k": chosen.spring, "e": RESTITUTION, "mu": chosen.friction, "dt": step,
+        "k": chosen.spring, "e": chosen.restitution, "mu": chosen.friction, "dt": step,
         "top": 0.025 + solid / SHOE_AREA / LOOSE, "settle": case.settle, "time": chosen.time,
         "points": round(0.05 / step), "case": "gas.toml", "out": ".",
     }, packing=("l", "count", "radius", "density", "k", "e", "mu", "dt", "top", "settle"))

@@ -15,9 +15,7 @@ import plot  # noqa: E402
 ORIGINAL_COUNT = 250_000 * 5**3  # the paper: 250 000 grains of ratio 5
 ORIGINAL_RADIUS = 50e-6  # m
 DENSITY = 2500.0  # kg/m^3
-RESTITUTION = 0.9
 SIZE = (0.05, 0.01, 0.2)  # m
-START_UP = {"cheap": 0.3, "paper": 1.0}  # s: the packed bed rises as a plug before it bubbles
 MEASURED_HEIGHT = {0.2: 0.0917, 0.3: 0.0949}  # gas velocity in m/s -> bed height in m
 CASES = {0.2: "1-1", 0.3: "1-2"}
 ROW = 2e-3  # s between rows of loads.csv
@@ -57,10 +55,11 @@ def given_options():
     options.add_number(parser, "--velocity", "U",
                        "superficial gas velocity, m/s; the paper takes 0.2 and 0.3", 0.2)
     options.add_number(parser, "--time", "T", "simulated time with gas, s", "0.8")
+    # The packed bed rises as a plug before it bubbles.
     options.add_start_up(parser, "0.3")
     options.add_number(parser, "--gas-step", "S", "largest gas step, s", 1e-4)
     options.add_number(parser, "--cell", "MM", "cell of the gas, mm", 1.25)
-    options.add_closures(parser, 0.3)
+    options.add_closures(parser, friction=0.3, restitution=0.9)
     parser.add_argument("--tubes", type=float, nargs=4, default=(15, 35, 20, 40),
                         metavar=("X1", "X2", "Z1", "Z2"),
                         help="axes of the four tubes, mm; the paper does not print them (default "
@@ -72,6 +71,7 @@ def given_options():
                     {"grain": 10.0, "spring": 0.25, "time": 0.8, "start_up": 0.3})
     options.require(parser, chosen, {"grain": 1, "ranks": 1, "time": 0, "spring": 0, "gas_step": 0,
                                      "cell": 0, "hours": 0, "velocity": 0})
+    options.require_restitution(parser, chosen)
     options.require_start_up(parser, chosen)
     if chosen.grain > 25:
         parser.error(f"--grain is {chosen.grain:g}: grains above 2.5 mm (l = 25) do not fit between tubes and walls")
@@ -98,7 +98,7 @@ def case_text(chosen, exchange):
 def make_job(chosen, out):
     """Writes script and case into `out`; prints what will be run."""
     exchange = 2 * chosen.gas_step
-    duration = grains.contact_time(ORIGINAL_RADIUS, DENSITY, chosen.spring, RESTITUTION)
+    duration = grains.contact_time(ORIGINAL_RADIUS, DENSITY, chosen.spring, chosen.restitution)
     step = grains.time_step(duration, exchange)
     count = round(ORIGINAL_COUNT / chosen.grain**3)
     print(f"Fluidized bed with four tubes, 50 x 10 x 200 mm, gas cells of {chosen.cell:g} mm")
@@ -116,11 +116,12 @@ def make_job(chosen, out):
     left, right, low, high = (1e-3 * value for value in chosen.tubes)
     sampling = max(1, round(ROW / 5 / step))
     return pieces.Job(out, "bed.in", {
-        "l": chosen.grain, "count": count, "k": chosen.spring, "mu": chosen.friction, "dt": step,
-        "time": chosen.time, "left": left, "right": right, "low": low, "high": high,
+        "l": chosen.grain, "count": count, "k": chosen.spring, "e": chosen.restitution,
+        "mu": chosen.friction, "dt": step, "time": chosen.time, "left": left, "right": right,
+        "low": low, "high": high,
         "rows": 5, "sampling": sampling, "points": 5 * sampling * round(0.05 / ROW),
         "case": "gas.toml", "out": ".",
-    }, packing=("l", "count", "k", "mu", "dt", "left", "right", "low", "high"))
+    }, packing=("l", "count", "k", "e", "mu", "dt", "left", "right", "low", "high"))
 
 
 def main():

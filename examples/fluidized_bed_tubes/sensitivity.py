@@ -35,6 +35,7 @@ def variants(chosen):
         "stiffer spring": ["--spring", "2.5"],
         "less friction": ["--friction", "0.1"],
         "more friction": ["--friction", "0.5"],
+        "softer impacts": ["--restitution", "0.6"],
         "Beetstra": ["--drag", "beetstra"],
         "Koch-Hill": ["--drag", "koch-hill"],
         "Di Felice": ["--drag", "difelice"],

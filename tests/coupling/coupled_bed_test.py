@@ -4,6 +4,8 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 import coupled_bed as bed
+from engine_scenes import SCALE, stl
+from liggghts_run import dump_command, largest_difference
 
 NAMES = ["bed_height_mean", "pressure_drop_mean", "pressure_drop_force_balance",
          "momentum_balance_residual", "solid_volume_residual", "overlap_max", "time_dem",
@@ -198,6 +200,33 @@ class CoupledBed(unittest.TestCase):
                 self.assertEqual({row["unexplained_grains"] for row in rows}, {0.0})
                 self.assertGreater(max(abs(row["grain_passage"]) for row in rows),
                                    0.1 * bed.weight())
+
+    def test_bed_between_stock_mesh_walls(self):
+        """Floor and left side as triangles: of the floor's force the balance has to know."""
+        width, depth, height = bed.BOX
+        floor = stl([((0, 0, 0), (width, 0, 0), (width, depth, 0)),
+                     ((0, 0, 0), (width, depth, 0), (0, depth, 0))])
+        left = stl([((0, 0, 0), (0, depth, 0), (0, depth, height)),
+                    ((0, 0, 0), (0, depth, height), (0, 0, height))])
+        text = bed.script(dump_command("d", 100) + "run 700")
+        for name in ("floor", "left"):
+            text = text.replace(f"fix {name} all wall/sdf case case.toml body {name} type 2",
+                                f"fix {name} all mesh/surface file {name}.stl type 2")
+        text = text.replace("fix gas ", "fix meshes all wall/gran model cgm tangential history "
+                                        "mesh n_meshes 2 meshes floor left\nfix gas ")
+        frames = {}
+        for engine in ("off", "fused"):
+            with self.subTest(engine=engine):
+                bench = bed.bench(bed.case(bottom=bed.inlet(0.02), coupling="series_interval = 2e-4"))
+                (bench.directory / "floor.stl").write_text(floor)
+                (bench.directory / "left.stl").write_text(left)
+                bench.run(f"gasgrain_engine {engine}\n{text}", ranks=2)
+                found = bed.quantities(bench.directory)
+                self.assertLess(found["momentum_balance_residual"], 1e-9)
+                self.assertGreater(max(abs(row["walls_on_grains"])
+                                       for row in bed.series(bench.directory)), 0.1 * bed.weight())
+                frames[engine] = bench.frames("d.dump")
+        self.assertLess(largest_difference(frames["fused"], frames["off"], SCALE), 1e-8)
 
     def test_stops_at_a_residual_beyond_its_bound_when_asked(self):
         script = bed.script("fix push all addforce 0 0 1e-8\nrun 2000")  # nobody measures it

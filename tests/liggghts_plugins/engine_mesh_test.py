@@ -8,6 +8,7 @@ import unittest
 
 from engine_scenes import (FORCES, RADIUS, SCALE, SIDE, EngineTest, crowd, plate, reference_log,
                            scene, stl, thermo_of)
+from engine_insertion_test import FACE, STREAM
 from engine_stock_models_test import MATERIALS, STIFFNESSES
 from liggghts_run import (Bench, cgm_properties, data_file, dump_command, largest_difference,
                           preamble, thermo)
@@ -88,10 +89,11 @@ class MeshWalls(EngineTest):
     HERTZ = "hertz tangential history"
 
     def check(self, text, scene_files=None, ranks=1, rest="run 600\nrun 400\n",
-              limits=((300, 1e-10), (1000, 1e-8)), columns="x y z vx vy vz omegax omegay omegaz"):
+              limits=((300, 1e-10), (1000, 1e-8)), columns="x y z vx vy vz omegax omegay omegaz",
+              reference_ranks=1):
         reference, fused, run = self.off_and_fused(
-            text, dump_command("d", 100, columns) + rest,
-            scene_files or mesh_files(crowd()), ranks)
+            text, dump_command("d", 100, columns) + rest, scene_files or mesh_files(crowd()), ranks,
+            reference_ranks=reference_ranks)
         self.assertRegex(run.text, "Engine: fused: .*wall/gran mesh x")
         return self.assert_same_motion(reference, fused, limits)
 
@@ -166,6 +168,18 @@ class MeshWalls(EngineTest):
                 frames = self.check(text, scene_files, ranks)
         still = self.check(text.replace(motion, ""), scene_files)
         self.assertGreater(largest_difference(still, frames, SCALE), 1e-2)
+
+    def test_grains_poured_through_a_face(self):
+        """A third mesh, that of the insertion, is no wall. What is inserted depends on the ranks."""
+        walls = meshes("cgm tangential history", [surface("box"), surface("roof")])
+        grains = [grain for grain in crowd() if grain.position[2] < SIDE]
+        text = scene(walls=walls, properties=cgm_properties(2, k=50.0, e=0.8, mu=0.4))
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                frames = self.check(text + STREAM, {**mesh_files(grains), "face.stl": FACE}, ranks,
+                                    rest="run 450\nrun 550\n", reference_ranks=ranks)
+                self.assert_kept_in_box(frames)
+                self.assertGreater(len(frames[-1]), len(grains) + 30)
 
     def test_forces_and_wear_of_meshes(self):
         head = "fix k_finnie all property/global k_finnie peratomtypepair 2 1 1 1 1\n"

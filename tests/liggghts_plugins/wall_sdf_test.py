@@ -278,6 +278,21 @@ class ConcaveEdge(unittest.TestCase):
             self.assertAlmostEqual(sampled[-1][1][9 + d] / (MASS * 9),
                                    planes[-1][1][9 + d] / (MASS * 9), delta=1e-2)
 
+    def test_springs_survive_the_first_new_lists(self):
+        """A grain that slides and comes to roll moves alike with new lists in every step."""
+        overlap = 9.81 * MASS / (L**3 * 0.05)
+        grain = [Grain((0, 0, -0.3e-3 + RADIUS - overlap), RADIUS, (0.01, 0, 0))]
+        frames = {}
+        for every in (1, 300):
+            text = script(L, "cgm tangential history", cgm_properties(2, 0.05, 0.8),
+                          "fix w all wall/sdf case case.toml body plane type 2", steps=600,
+                          extra="fix gravity all gravity 9.81 vector 0 0 -1")
+            text = text.replace("delay 0", f"delay 0 every {every} check no")
+            frames[every] = last_states("gasgrain_engine off\n" +
+                                        text.replace(f"timestep {STEP}", "timestep 1e-6"), grain)
+        self.assertGreater(abs(frames[1][6][1][9]), 0.1 * MASS * 9.81)  # when lists are made anew
+        self.assertLess(largest_difference(frames[1], frames[300], SCALE), 1e-12)
+
     def test_springs_of_an_edge_survive_a_restart(self):
         walls = "fix w all wall/sdf case case.toml body bin type 2"
         text = script(L, "cgm tangential history", cgm_properties(2, 0.05, 0.05), walls,

@@ -166,8 +166,56 @@ TEST(LocalWalls, of_exact_shapes_are_exact_everywhere) {
   });
 }
 
+// A floor with bumps higher than wide for the spacing, among which a search may not end.
+class RoughFloor : public SignedDistance {
+ public:
+  double distance(const Vec3& x) const override { return sample(x).distance; }
+  DistanceSample sample(const Vec3& x) const override {
+    const double u = bumps * x[0], v = bumps * x[1];
+    return {x[2] - height * std::sin(u) * std::sin(v),
+            {-height * bumps * std::cos(u) * std::sin(v),
+             -height * bumps * std::sin(u) * std::cos(v), 1.0}};
+  }
+
+ private:
+  static constexpr double height = 2.0 * spacing, bumps = 1.2 / spacing;
+};
+
+// Of a search that was given up the wall says so; the others have led to a foot.
+TEST(LocalWalls, say_whether_the_nearest_place_was_found) {
+  const SampledDistance field(
+      sample_shape(RoughFloor(), {.lower = Vec3::Constant(-3),
+                                  .upper = Vec3::Constant(3),
+                                  .spacing = spacing,
+                                  .band = 2.0,
+                                  .cut = true,
+                                  .interpolation = Interpolation::quadratic}));
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  int found = 0, given_up = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const Vec3 x(share(random), share(random), 0.8 * radius);
+    LocalWalls walls;
+    walls.come_to(field, x, radius);
+    for (int w = 0; w < walls.count(); ++w) {
+      const DistanceSample wall = walls.seen_from(x, w);
+      const DistanceSample foot = field.sample(x - wall.distance * wall.gradient);
+      if (!walls.foot_found(w)) {
+        ++given_up;
+        continue;
+      }
+      ++found;
+      EXPECT_NEAR(foot.distance, 0.0, 1e-3 * spacing);
+      EXPECT_GT(wall.gradient.dot(foot.gradient.normalized()), 1 - 1e-6);
+    }
+  }
+  EXPECT_GT(found, 2000);
+  EXPECT_GT(given_up, 20);
+}
+
 // The hole of this ring is exactly as wide as the ball: its centre on the axis is equally far from
-// the whole inner circle. There the ball must always see a wall.
+// the whole inner circle. There the ball must always see a wall, and hardly ever does the search
+// for its foot end before one is found.
 TEST(LocalWalls, are_never_lost_in_a_hole_as_wide_as_the_ball) {
   const Vec3 axis = Vec3(1, 2, 3).normalized(), across = axis.unitOrthogonal();
   const Shape ring =
@@ -181,6 +229,7 @@ TEST(LocalWalls, are_never_lost_in_a_hole_as_wide_as_the_ball) {
                            .interpolation = Interpolation::quadratic}));
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(-1.0, 1.0);
+  int unsure = 0;
   for (int n = 0; n < 1000; ++n) {
     const Vec3 x = 0.02 * (share(random) * across + share(random) * axis.cross(across)) +
                    0.2 * share(random) * axis;
@@ -189,10 +238,14 @@ TEST(LocalWalls, are_never_lost_in_a_hole_as_wide_as_the_ball) {
     walls.come_to(*field, x, radius);
     ASSERT_GE(walls.count(), 1);
     double nearest = 10.0;
-    for (int w = 0; w < walls.count(); ++w)
-      nearest = std::min(nearest, walls.seen_from(x, w).distance);
+    for (int w = 0; w < walls.count(); ++w) {
+      const DistanceSample wall = walls.seen_from(x, w);
+      nearest = std::min(nearest, wall.distance);
+      unsure += !walls.foot_found(w);
+    }
     EXPECT_NEAR(nearest, ring->distance(x), 0.02 * radius);
   }
+  EXPECT_LE(unsure, 1);
 }
 
 }  // namespace
