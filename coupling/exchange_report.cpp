@@ -13,6 +13,7 @@ namespace gasgrain::coupling {
 
 namespace {
 
+constexpr double alone = 0.99;        // void fraction
 constexpr double motion_share = 0.1;  // of a diameter or spacing per interval
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -63,13 +64,14 @@ double GasCoupling::wall_motion_limit() const {
 void GasCoupling::measure(double interval) {
   const std::vector<GrainRecord>& grains = transfer_.received();
   const MPI_Comm communicator = gas_.decomposition().communicator();
-  double inside = 0, volume = 0, mass = 0, drag_size = 0, pressure_size = 0;
+  double inside = 0, lone = 0, volume = 0, mass = 0, drag_size = 0, pressure_size = 0;
   Vec3 drag = Vec3::Zero(), carried = Vec3::Zero(), pressure = Vec3::Zero();
   IntervalLimits limits{infinity, infinity, wall_motion_limit(), infinity};
   for (std::size_t n = 0; n < grains.size(); ++n) {
     if (!deposition_.takes_part(n)) continue;
     const GrainRecord& grain = grains[n];
     inside += 1;
+    if (void_fractions_[n] > alone) lone += 1;
     volume += grain.volume;
     mass += grain.mass;
     drag += drag_[n];
@@ -94,8 +96,8 @@ void GasCoupling::measure(double interval) {
 
   Sums sums, least;
   const double outside = double(transfer_.outside()) + (double(grains.size()) - inside);
-  for (double value : {inside, outside, double(report_.limited), volume, mass, deposited, drag_size,
-                       pressure_size}) {
+  for (double value : {inside, outside, lone, double(report_.limited), volume, mass, deposited,
+                       drag_size, pressure_size}) {
     sums.add(value);
   }
   for (const Vec3& value : {drag, pressure, carried, report_.drag_on_walls}) sums.add(value);
@@ -105,6 +107,7 @@ void GasCoupling::measure(double interval) {
 
   report_.grains_inside = std::lround(sums.take());
   report_.grains_outside = std::lround(sums.take());
+  report_.grains_alone = std::lround(sums.take());
   report_.limited = std::lround(sums.take());
   report_.solid_volume = sums.take();
   report_.solid_mass = sums.take();
@@ -126,8 +129,9 @@ void GasCoupling::measure(double interval) {
   if (interval <= 0) return;
   const cfd::MomentumBudget& gas = report_.gas_momentum;
   report_.carried = carried;
-  report_.third_law_residual = relative(
-      (interval * drag + carried + gas.drag + report_.drag_on_walls).norm(), interval * drag_size);
+  report_.unbalanced = interval * drag + carried + gas.drag + report_.drag_on_walls;
+  report_.drag_impulse = interval * drag_size;
+  report_.third_law_residual = relative(report_.unbalanced.norm(), report_.drag_impulse);
   report_.pressure_residual =
       relative((interval * pressure - gas.pressure_on_grains).norm(), interval * pressure_size);
 }

@@ -29,6 +29,7 @@ void add(cfd::MomentumBudget& sum, const cfd::MomentumBudget& budget);
 struct ExchangeReport {
   long grains_inside = 0;   // centre in a cell of the grid, deposited
   long grains_outside = 0;  // centre outside the grid or among closed cells: no gas force
+  long grains_alone = 0;    // of those inside: void fraction around them above 0.99
   long limited = 0;         // grains whose closure saw a limited void fraction
   double smallest_void_fraction = 1.0;  // in the cells
   double solid_volume = 0.0;            // of the grains inside, m^3
@@ -45,9 +46,10 @@ struct ExchangeReport {
   Vec3 force_on_grains = Vec3::Zero();  // N, sum of the new forces
   Vec3 carried = Vec3::Zero();          // N s: sum of GrainRecord::carried, given back to the gas
   Vec3 drag_on_walls = Vec3::Zero();    // N s: drag in directions in which a cell has no free face
-  double third_law_residual = 0.0;      // |impulse of drag on grains + carried + on gas + on walls|
-                                        // over the sum of magnitudes of the grains' impulses
-  double pressure_residual = 0.0;       // the same for -V grad p
+  Vec3 unbalanced = Vec3::Zero();   // N s: impulse of drag on grains + carried + on gas + on walls
+  double drag_impulse = 0.0;        // N s: sum of magnitudes of the grains' impulses
+  double third_law_residual = 0.0;  // |unbalanced| over drag_impulse
+  double pressure_residual = 0.0;   // the same for -V grad p
   IntervalLimits limits{};
   double gas_seconds = 0.0;  // wall time in the gas solver on this rank
 };

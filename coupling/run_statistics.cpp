@@ -19,6 +19,8 @@ void RunExtremes::note(const ExchangeReport& report) {
   limited += report.limited;
   grains_outside = std::max(grains_outside, report.grains_outside);
   third_law_residual = std::max(third_law_residual, report.third_law_residual);
+  unbalanced += report.unbalanced;
+  drag_impulse += report.drag_impulse;
   pressure_residual = std::max(pressure_residual, report.pressure_residual);
   solid_volume_residual = std::max(solid_volume_residual, report.solid_volume_residual);
   divergence = std::max(divergence, report.divergence);
@@ -52,6 +54,9 @@ void visit(cfd::StateArchive& archive, RunExtremes& e) {
   archive.number("shortest_interval", e.shortest_interval);
   archive.number("longest_interval", e.longest_interval);
   archive.number("third_law_residual", e.third_law_residual);
+  for (int d = 0; d < 3; ++d)
+    archive.number(std::string("unbalanced_") + "xyz"[d], e.unbalanced[d]);
+  archive.number("drag_impulse", e.drag_impulse);
   archive.number("pressure_residual", e.pressure_residual);
   archive.number("solid_volume_residual", e.solid_volume_residual);
   archive.number("divergence", e.divergence);

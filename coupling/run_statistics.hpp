@@ -8,6 +8,7 @@
 #include "cfd/state_archive.hpp"
 #include "coupling/batch_means.hpp"
 #include "coupling/run_audit.hpp"
+#include "coupling/shared/vec3.hpp"
 #include "liggghts_plugins/contact_statistics.hpp"
 
 namespace gasgrain::coupling {
@@ -32,6 +33,8 @@ struct RunExtremes {
        grains_outside = 0;
   double shortest_interval = 0.0, longest_interval = 0.0;  // s
   double third_law_residual = 0.0, pressure_residual = 0.0, solid_volume_residual = 0.0;
+  Vec3 unbalanced = Vec3::Zero();  // N s, sum of ExchangeReport::unbalanced
+  double drag_impulse = 0.0;       // N s, likewise
   double divergence = 0.0, removed_mean = 0.0;
   double momentum_residual = 0.0;  // vertical, over the weight; audited intervals
   double heating = 0.0;            // likewise, see AuditRow

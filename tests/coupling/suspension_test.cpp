@@ -96,7 +96,7 @@ void keeps_the_momentum(const std::string& coupling_options) {
     EXPECT_LT(report.third_law_residual, 1e-12);
   }
   const Vec3 now = momentum(grains) + transit + gas_momentum(coupling);
-  EXPECT_LT((now - total).norm(), 1e-9 * total.norm());
+  EXPECT_LT((now - total).norm(), 1e-10 * total.norm());
   EXPECT_LT(momentum(grains).norm(), 0.9 * total.norm());  // the gas took part of it
 }
 
@@ -171,7 +171,7 @@ TEST(Suspension, drag_that_follows_the_grains_keeps_the_momentum) {
     EXPECT_LT(report.third_law_residual, 1e-12);
   }
   const Vec3 now = momentum(grains) + transit + gas_momentum(coupling);
-  EXPECT_LT((now - remainder - total).norm(), 1e-9 * total.norm());
+  EXPECT_LT((now - remainder - total).norm(), 1e-10 * total.norm());
   EXPECT_LT(remainder.norm(), 1e-5 * total.norm());
 }
 
@@ -197,7 +197,7 @@ TEST(Suspension, intervals_of_changing_length_keep_the_momentum) {
     EXPECT_LT(report.third_law_residual, 1e-12);
   }
   const Vec3 now = momentum(grains) + transit + gas_momentum(coupling);
-  EXPECT_LT((now - total).norm(), 1e-9 * total.norm());
+  EXPECT_LT((now - total).norm(), 1e-10 * total.norm());
 }
 
 // A plug that moves as one in a closed tube, eps u + (1 - eps) v = 0, sets the gas between its
