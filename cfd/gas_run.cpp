@@ -92,7 +92,10 @@ void GasRun::open_files() {
   frames_.emplace(solver_.decomposition().communicator(), directory, "gas",
                   restarted_at_ ? Series::resume : Series::start_new);
   series_.emplace((std::filesystem::path(directory) / "gas.csv").string(), solver_, restarted_at_);
-  if (!case_.probes.empty()) probes_.emplace(case_.probes, directory, solver_, restarted_at_);
+  if (!case_.probes.empty()) {
+    probes_.emplace(case_.probes, solver_);
+    probes_->open_files(solver_, directory, restarted_at_);
+  }
 }
 
 RunOutcome GasRun::run() {
@@ -192,7 +195,7 @@ void GasRun::record(const StepReport& report, double dt) {
   if (case_.run.step > 0.0 && dt < case_.run.step && !at_end()) ++counters_.shortened;
   display_.count(report);
   if (series_) series_->write(solver_, report, dt);
-  if (probes_) probes_->write(solver_);
+  if (probes_) probes_->take(solver_);
 }
 
 void GasRun::write_frame_if_due() {

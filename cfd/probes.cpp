@@ -1,6 +1,8 @@
 #include "cfd/probes.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "coupling/files/collective_error.hpp"
 
@@ -23,34 +25,52 @@ struct Make {
 
 }  // namespace
 
-Probes::Probes(const std::vector<ProbeSettings>& settings, const std::string& directory,
-               const GasSolver& solver, std::optional<double> continue_from) {
-  const Decomposition& blocks = solver.decomposition();
+Probes::Probes(const std::vector<ProbeSettings>& settings, const GasSolver& solver) {
   for (const ProbeSettings& given : settings) {
-    entries_.push_back({std::visit(Make{blocks}, given.place), 0, Schedule(given.interval), {}});
-    if (continue_from) entries_.back().schedule.skip_to(*continue_from);
+    std::unique_ptr<Probe> probe = std::visit(Make{solver.decomposition()}, given.place);
+    std::vector<std::string> columns = probe->columns();
+    const bool is_line = std::holds_alternative<LineProbe>(given.place);
+    const std::ptrdiff_t place = is_line ? -1 : static_cast<std::ptrdiff_t>(values_.size());
+    if (!is_line) values_.resize(values_.size() + columns.size());
+    entries_.push_back({.name = given.name,
+                        .probe = std::move(probe),
+                        .columns = std::move(columns),
+                        .schedule = Schedule(given.interval),
+                        .place = place,
+                        .file = {}});
   }
+}
+
+void Probes::open_files(const GasSolver& solver, const std::string& directory,
+                        std::optional<double> continue_from) {
+  const Decomposition& blocks = solver.decomposition();
   run_collectively(blocks.communicator(), [&] {
-    for (std::size_t n = 0; n < entries_.size(); ++n) {
-      std::vector<std::string> columns{"time_s"};
-      for (const std::string& name : entries_[n].probe->columns()) columns.push_back(name);
-      entries_[n].columns = columns.size() - 1;
+    for (Entry& entry : entries_) {
+      if (continue_from) entry.schedule.skip_to(*continue_from);
       if (blocks.rank() != 0) continue;
-      const auto path = std::filesystem::path(directory) / ("probe_" + settings[n].name + ".csv");
-      entries_[n].file.emplace(path.string(), columns, continue_from);
+      std::vector<std::string> columns{"time_s"};
+      columns.insert(columns.end(), entry.columns.begin(), entry.columns.end());
+      const auto path = std::filesystem::path(directory) / ("probe_" + entry.name + ".csv");
+      entry.file.emplace(path.string(), columns, continue_from);
     }
   });
 }
 
-void Probes::write(const GasSolver& solver) {
+void Probes::take(const GasSolver& solver) {
+  const MPI_Comm communicator = solver.decomposition().communicator();
   for (Entry& entry : entries_) {
     if (!entry.schedule.due(solver.time())) continue;
     const std::vector<double> values = entry.probe->sample(solver);
+    const auto count = static_cast<std::ptrdiff_t>(entry.columns.size());
+    if (entry.place >= 0) {
+      double* latest = values_.data() + entry.place;
+      if (solver.decomposition().rank() == 0) std::copy(values.begin(), values.end(), latest);
+      MPI_Bcast(latest, static_cast<int>(count), MPI_DOUBLE, 0, communicator);
+    }
     if (!entry.file) continue;
-    for (std::size_t at = 0; at < values.size(); at += entry.columns) {
+    for (auto from = values.begin(); from != values.end(); from += count) {
       std::vector<double> row{solver.time()};
-      const auto from = values.begin() + static_cast<std::ptrdiff_t>(at);
-      row.insert(row.end(), from, from + static_cast<std::ptrdiff_t>(entry.columns));
+      row.insert(row.end(), from, from + count);
       entry.file->add(row);
     }
   }

@@ -7,6 +7,7 @@
 #include "cfd/state_file.hpp"
 #include "coupling/files/collective_error.hpp"
 #include "coupling/files/hdf5_file.hpp"
+#include "coupling/lone_grains.hpp"
 #include "coupling/run_report.hpp"
 #include "coupling/shared/complete_file.hpp"
 #include "coupling/shared/error.hpp"
@@ -58,6 +59,7 @@ CoupledRun::CoupledRun(const Case& settings, const std::string& directory, DemHo
       communicator_(communicator),
       coupling_(case_.gas, case_.options, communicator),
       monitors_(case_.options.monitor),
+      probes_(case_.gas.probes, coupling_.gas()),
       audit_(case_.options.audit, case_.options.feedback, drag_follows_grains(), host,
              communicator),
       directory_(output_directory(case_.gas.output, directory)),
@@ -96,7 +98,7 @@ void CoupledRun::begin(std::span<Vec3> forces, std::span<double> coefficients) {
 void CoupledRun::open_files(std::optional<double> continue_from) {
   if (directory_.empty()) return;
   files_ = std::make_unique<RunFiles>(communicator_, directory_, continue_from);
-  probes_.emplace(case_.gas.probes, directory_, coupling_.gas(), continue_from);
+  probes_.open_files(coupling_.gas(), directory_, continue_from);
 }
 
 // 1 for the grains below the mean position along the monitored direction.
@@ -155,7 +157,7 @@ void CoupledRun::exchange(std::span<Vec3> forces, std::span<double> coefficients
   elapsed_ = 0.0;
   observe_bed(row_.exchange);
   monitors_.note_exchange(coupling_, row_.exchange.interval);
-  if (probes_) probes_->write(coupling_.gas());
+  probes_.take(coupling_.gas());
   write_outputs(row_.time);
   choose_next_interval();
   statistics_.wall_times.gas += row_.exchange.gas_seconds;
@@ -192,6 +194,16 @@ void CoupledRun::judge() {
   }
 }
 
+// Once; one-way grains do not slow the gas.
+void CoupledRun::warn_of_lone_grains() {
+  if (warned_of_lone_grains_ || case_.options.feedback == Feedback::one_way) return;
+  if (!most_grains_are_alone(row_.exchange)) return;
+  const std::optional<std::string> warning = coupling::warning_of_lone_grains(
+      row_.exchange, host_.sizes().largest_diameter, coupling_.kernel_width());
+  if (warning) host_.print("WARNING: " + *warning + "\n");
+  warned_of_lone_grains_ = warning.has_value();
+}
+
 void CoupledRun::choose_next_interval() {
   interval_ = choose_interval(row_.exchange.limits, host_.step(), case_.options.exchange_interval);
 }
@@ -204,6 +216,7 @@ void CoupledRun::write_outputs(double time) {
     statistics_.note_monitors(row_.time, row_.audit.balance.interval, row_.monitors);
     if (files_) files_->add_row(series_values(row_, monitors_.names(), monitor_->vertical().axis));
     judge();
+    warn_of_lone_grains();
   }
   if (frame_schedule_.due(time)) write_frame(time);
   if (progress_schedule_.due(time)) {
@@ -306,7 +319,7 @@ void CoupledRun::finish_run() {
         {.case_name = case_.options.case_name,
          .commit = source_commit(),
          .quantities = summary_quantities(row_, statistics_, times, means, monitors_.names())});
-    probes_->flush();
+    probes_.flush();
   }
 }
 

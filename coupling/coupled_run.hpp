@@ -83,6 +83,7 @@ class CoupledRun {
   const RunStatistics& statistics() const { return statistics_; }
   const SeriesRow& latest() const { return row_; }
   const Monitors& monitors() const { return monitors_; }
+  const std::vector<double>& probe_values() const { return probes_.values(); }
 
  private:
   // What a case file states, read once.
@@ -104,6 +105,7 @@ class CoupledRun {
   void observe_bed(const ExchangeReport& report);
   void audit();
   void judge();
+  void warn_of_lone_grains();
   void choose_next_interval();
   void write_outputs(double time);
   void write_frame(double time);
@@ -115,7 +117,7 @@ class CoupledRun {
   GasCoupling coupling_;
   std::optional<BedMonitor> monitor_;  // from begin() on: gravity is known
   Monitors monitors_;
-  std::optional<cfd::Probes> probes_;  // with files_
+  cfd::Probes probes_;
   RunAudit audit_;
   RunStatistics statistics_;
   std::string directory_;            // of the output, "": none
@@ -124,6 +126,7 @@ class CoupledRun {
   SeriesRow row_;
 
   bool begun_ = false;
+  bool warned_of_lone_grains_ = false;
   CouplingInterval interval_;
   int steps_since_exchange_ = 0;
   double elapsed_ = 0.0;           // s since the last exchange

@@ -58,7 +58,7 @@ FixCoupleGas::FixCoupleGas(LAMMPS_NS::LAMMPS* liggghts, int argument_count, char
   host_ = std::make_unique<LiggghtsHost>(lmp, groupbit);
   run_ =
       std::make_unique<CoupledRun>(given.case_file, given.directory, *host_, host_->communicator());
-  size_vector += static_cast<int>(run_->monitors().names().size());
+  size_vector += static_cast<int>(run_->monitors().names().size() + run_->probe_values().size());
   if (run_->monitors().wants_labels()) host_->values().keep_labels();
   if (run_->drag_follows_grains()) host_->values().let_drag_follow();
   state_directory_ = run_->directory().empty() ? "." : run_->directory();
@@ -212,8 +212,11 @@ double FixCoupleGas::compute_vector(int index) {
     case 9:
       return double(row.exchange.grains_outside);
     default:
-      return row.monitors.empty() ? 0.0 : row.monitors[index - 10];
+      break;
   }
+  const int monitors = static_cast<int>(run_->monitors().names().size());
+  if (index - 10 >= monitors) return run_->probe_values()[index - 10 - monitors];
+  return row.monitors.empty() ? 0.0 : row.monitors[index - 10];
 }
 
 // Returns their sum over this rank's grains, N.

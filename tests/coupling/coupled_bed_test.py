@@ -1,5 +1,7 @@
 """A LIGGGHTS script with gas, from the script to the files, at several rank counts."""
 
+import csv
+import re
 import unittest
 import xml.etree.ElementTree as ElementTree
 
@@ -21,6 +23,7 @@ class CoupledBed(unittest.TestCase):
                 found = bed.quantities(bench.directory)
                 self.assertLess(found["momentum_balance_residual"], 1e-9)
                 self.assertLess(found["third_law_residual"], 1e-12)
+                self.assertLess(found["third_law_accumulated"], 1e-10)
                 self.assertLess(found["solid_volume_residual"], 1e-12)
                 self.assertAlmostEqual(found["pressure_drop_weight_over_area"],
                                        bed.weight() / bed.AREA, delta=1e-6)
@@ -104,7 +107,7 @@ class CoupledBed(unittest.TestCase):
                    'mixing = "x", plane = [{name = "low", direction = "z", position = 0.004}]}')
         probe = '[[probe]]\nname = "bottom"\npoint = [0.001, 0.001, 0.001]\ninterval = 1e-3\n'
         bench = bed.bench(bed.case(coupling=monitor, interval=5e-3) + probe)
-        done = bench.run(bed.script("thermo_style custom step f_gas[3] f_gas[11] f_gas[13] f_gas[17]"
+        done = bench.run(bed.script("thermo_style custom step f_gas[3] f_gas[11] f_gas[13] f_gas[17] f_gas[23]"
                                     "\nthermo 500\nrun 1000"), ranks=2)
         rows = bed.series(bench.directory)
         last = rows[-1]
@@ -131,7 +134,18 @@ class CoupledBed(unittest.TestCase):
         self.assertLess(min(row[2] for row in profile[-16:]), 0.6)
         self.assertAlmostEqual(profile[-1][2], 1.0, delta=1e-9)
         with open(bench.directory / "out" / "probe_bottom.csv") as file:
-            self.assertEqual(len(file.readlines()), len(rows) + 1)
+            probe = list(csv.DictReader(file))
+        self.assertEqual(len(probe), len(rows))
+        pressure = float(probe[-1]["pressure_Pa"])  # ten and nine values come before the probe's
+        self.assertAlmostEqual(float(printed[0][5]), pressure, delta=1e-4 * abs(pressure))
+
+    def test_warns_of_grains_that_are_alone(self):
+        bench = bed.bench(bed.case())
+        lone = re.sub(r"\d+ atoms", "1 atoms", bed.grains_data().split("\n2 1 ")[0]) + "\n"
+        (bench.directory / "grains.data").write_text(lone)
+        text = bench.run(bed.script("run 2000")).text
+        self.assertEqual(text.count("1 of 1 grains are alone"), 1)
+        self.assertIn("set coupling.kernel_width", text)
 
     def test_drag_that_follows_the_grains_keeps_the_momentum(self):
         # intervals of changing length, from the limits; the engines agree
