@@ -367,6 +367,18 @@ std::vector<T> Hdf5File::read(const std::string& dataset) const {
   return values;
 }
 
+template <class T>
+std::optional<std::uint64_t> Hdf5File::place_in_file(const std::string& dataset) const {
+  const QuietErrors quiet;
+  const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set.valid()) fail("find dataset '" + dataset + "'");
+  const Handle type(H5Dget_type(set), H5Tclose);
+  const haddr_t place = H5Dget_offset(set);
+  if (place == HADDR_UNDEF || place % alignof(T) != 0 || H5Tequal(type, memory_type<T>()) <= 0)
+    return std::nullopt;
+  return place;
+}
+
 std::string Hdf5File::read_text(const std::string& dataset) const {
   const QuietErrors quiet;
   const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
@@ -388,7 +400,8 @@ std::string Hdf5File::read_text(const std::string& dataset) const {
   template void Hdf5File::write(const std::string&, const ArrayBlock&, const T*);     \
   template std::vector<T> Hdf5File::attribute(const std::string&) const;              \
   template void Hdf5File::read(const std::string&, const ArrayBlock&, T*) const;      \
-  template std::vector<T> Hdf5File::read(const std::string&) const;
+  template std::vector<T> Hdf5File::read(const std::string&) const;                   \
+  template std::optional<std::uint64_t> Hdf5File::place_in_file<T>(const std::string&) const;
 GASGRAIN_HDF5_TYPE(double)
 GASGRAIN_HDF5_TYPE(float)
 GASGRAIN_HDF5_TYPE(std::int16_t)

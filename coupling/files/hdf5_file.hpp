@@ -7,6 +7,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,10 @@ class Hdf5File {
   // The whole dataset.
   template <class T>
   std::vector<T> read(const std::string& dataset) const;
+  // First byte of a dataset that lies in the file as numbers T lie in memory; nothing when it is
+  // packed or converted.
+  template <class T>
+  std::optional<std::uint64_t> place_in_file(const std::string& dataset) const;
   std::string read_text(const std::string& dataset) const;
 
  private:

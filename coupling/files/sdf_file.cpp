@@ -2,6 +2,7 @@
 // grid have the slowest index (z) first. Format: docs/geometry.md.
 #include "coupling/files/sdf_file.hpp"
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "coupling/files/hdf5_file.hpp"
+#include "coupling/files/mapped_file.hpp"
 #include "coupling/shared/error.hpp"
 #include "coupling/shared/sampling.hpp"
 
@@ -87,6 +89,17 @@ std::vector<T> attribute(const Hdf5File& file, const std::string& path, const st
   return values;
 }
 
+// One copy for all processes of a machine where possible.
+template <class T>
+SharedArray<T> read_samples(const Hdf5File& file, const std::string& path) {
+  const std::string name = "/samples";
+  const auto place = file.place_in_file<T>(name);
+  if (!place) return file.read<T>(name);
+  std::uint64_t count = 1;
+  for (const std::uint64_t n : file.size(name)) count *= n;
+  return mapped_array<T>(path, *place, count);
+}
+
 }  // namespace
 
 void write_sdf(const std::string& path, const SampledDistance& field) {
@@ -122,9 +135,9 @@ SampledDistance read_sdf(const std::string& path) {
   data.block_value = file.read<float>("/blocks/far_value");
   data.brick = file.read<std::int32_t>("/bricks/entry");
   if (data.quantum > 0)
-    data.compact_samples = file.read<std::int16_t>("/samples");
+    data.compact_samples = read_samples<std::int16_t>(file, path);
   else
-    data.samples = file.read<float>("/samples");
+    data.samples = read_samples<float>(file, path);
   try {
     return SampledDistance(std::move(data));
   } catch (const UserError& error) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "coupling/shared/error.hpp"
@@ -24,7 +25,7 @@ void require(bool condition, const char* what) {
   }
 }
 
-bool all_finite(const std::vector<float>& values) {
+bool all_finite(std::span<const float> values) {
   return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
 }
 
@@ -124,7 +125,7 @@ DistanceSample SampledDistance::sample_inside(const Vec3& position) const {
 
 // Copies count^3 samples beginning with sample `first`; false when one of them is not stored.
 template <int count, class Sample>
-bool SampledDistance::gather(const Index3& first, const std::vector<Sample>& samples,
+bool SampledDistance::gather(const Index3& first, const SharedArray<Sample>& samples,
                              SampleStencil<count>& stencil) const {
   const Index3 home{first[0] / brick_points, first[1] / brick_points, first[2] / brick_points};
   Index3 at;          // within the first brick

@@ -33,6 +33,7 @@
 
 #include "coupling/shared/near_surfaces.hpp"
 #include "coupling/shared/sample_stencil.hpp"
+#include "coupling/shared/shared_array.hpp"
 #include "coupling/shared/signed_distance.hpp"
 
 namespace gasgrain {
@@ -62,8 +63,8 @@ struct BrickSamples {
   std::vector<float> block_value;   // per far block: sign and lower bound, m; else 0
   std::vector<std::int32_t>
       brick;                   // 512 per block with bricks: place in the samples, or far_brick()
-  std::vector<float> samples;  // 64 per stored brick, m; empty when they are compact
-  std::vector<std::int16_t> compact_samples;  // the same in units of `quantum`
+  SharedArray<float> samples;  // 64 per stored brick, m; empty when they are compact
+  SharedArray<std::int16_t> compact_samples;  // the same in units of `quantum`
   double quantum = 0.0;                       // m; 0: samples are not compact
 
   Index3 blocks() const;  // number in each direction
@@ -137,7 +138,7 @@ class SampledDistance final : public SignedDistance, public CurvedDistance {
   template <int count>
   bool find_stencil(const Vec3& position, Index3& first, SampleStencil<count>& stencil) const;
   template <int count, class Sample>
-  bool gather(const Index3& first, const std::vector<Sample>& samples,
+  bool gather(const Index3& first, const SharedArray<Sample>& samples,
               SampleStencil<count>& stencil) const;
   DistanceSample far_sample(const Index3& first) const;
   void find_surroundings();

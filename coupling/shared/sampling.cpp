@@ -145,9 +145,9 @@ class Sampler {
                       " bricks; choose a larger spacing or a narrower band");
     const std::size_t samples = stored * SampledDistance::samples_per_brick;
     if (data_.quantum > 0)
-      data_.compact_samples.resize(samples);
+      compact_samples_.resize(samples);
     else
-      data_.samples.resize(samples);
+      samples_.resize(samples);
   }
 
   void fill() {
@@ -156,6 +156,8 @@ class Sampler {
       for (std::size_t n = t * size; n < (t + 1) * size; ++n)
         if (data_.brick[n] >= 0) fill_brick(brick_at(n), data_.brick[n]);
     });
+    data_.samples = std::move(samples_);
+    data_.compact_samples = std::move(compact_samples_);
   }
 
   void fill_brick(const Index3& brick, std::int32_t slot) {
@@ -167,10 +169,10 @@ class Sampler {
     const std::size_t begin = static_cast<std::size_t>(slot) * SampledDistance::samples_per_brick;
     for (int n = 0; n < SampledDistance::samples_per_brick; ++n) {
       if (data_.quantum > 0)
-        data_.compact_samples[begin + n] =
+        compact_samples_[begin + n] =
             static_cast<std::int16_t>(std::lround(values[n] / data_.quantum));
       else
-        data_.samples[begin + n] = static_cast<float>(values[n]);
+        samples_[begin + n] = static_cast<float>(values[n]);
     }
   }
 
@@ -217,6 +219,8 @@ class Sampler {
   const SamplingBox& box_;
   const SamplingEffort& effort_;
   BrickSamples data_;
+  std::vector<float> samples_;  // as in data_, until they are complete
+  std::vector<std::int16_t> compact_samples_;
   std::vector<std::size_t> divided_;  // blocks with bricks
 };
 

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "coupling/files/hdf5_file.hpp"
+#include "coupling/files/mapped_file.hpp"
 #include "coupling/shared/boolean_shapes.hpp"
 #include "coupling/shared/primitives.hpp"
 #include "coupling/shared/sampling.hpp"
@@ -47,10 +48,10 @@ class SdfFile : public testing::Test {
   std::filesystem::path directory_;
 };
 
-template <class T>
-void expect_same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+template <class Values>
+void expect_same_bits(const Values& a, const Values& b) {
   ASSERT_EQ(a.size(), b.size());
-  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(T)), 0);
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(*a.data())), 0);
 }
 
 void expect_same(const SampledDistance& written, const SampledDistance& read) {
@@ -81,6 +82,25 @@ TEST_F(SdfFile, ReadsBackBitForBit) {
       expect_same(written, read_sdf(path("ball.h5")));
     }
   }
+}
+
+// Samples are not read but mapped, so that the processes of a machine share them.
+TEST_F(SdfFile, IsMappedAndMayBeRemovedWhileInUse) {
+  const SampledDistance written = ball();
+  write_sdf(path("ball.h5"), written);
+  const Hdf5File file = Hdf5File::open(path("ball.h5"));
+  EXPECT_TRUE(file.place_in_file<float>("/samples").has_value());
+  EXPECT_FALSE(file.place_in_file<double>("/samples").has_value());
+  const SampledDistance read = read_sdf(path("ball.h5"));
+  std::filesystem::remove(path("ball.h5"));
+  expect_same(written, read);
+}
+
+TEST_F(SdfFile, IsNotMappedBeyondItsEnd) {
+  std::ofstream(path("short"), std::ios::binary) << "sixteen bytes ..";
+  EXPECT_EQ(mapped_array<float>(path("short"), 4, 3).size(), 3u);
+  expect_contains(user_error([&] { mapped_array<float>(path("short"), 4, 4); }), "too short");
+  expect_contains(user_error([&] { mapped_array<float>(path("missing"), 0, 1); }), "missing");
 }
 
 // Any byte changed: read, or refused with a UserError.
@@ -115,8 +135,10 @@ TEST_F(SdfFile, LoadsAsAShapeThatIsChecked) {
               2e-3);
 
   BrickSamples open = ball().data();
-  const auto inside = std::min_element(open.samples.begin(), open.samples.end());
+  std::vector<float> samples = open.samples.copy();
+  const auto inside = std::min_element(samples.begin(), samples.end());
   *inside = -*inside;
+  open.samples = samples;
   write_sdf(path("open.h5"), SampledDistance(open));
   expect_contains(user_error([&] { load_sdf_shape(path("open.h5")); }), "body not closed");
   expect_contains(user_error([&] { load_sdf_shape(path("open.h5")); }), "open.h5");

@@ -251,10 +251,14 @@ TEST(SampledDistance, RejectsDataThatDoNotFitEachOther) {
   bad.brick.pop_back();
   EXPECT_THROW(SampledDistance{bad}, UserError);
   bad = good;
-  bad.samples.pop_back();
+  std::vector<float> samples = good.samples.copy();
+  samples.pop_back();
+  bad.samples = samples;
   EXPECT_THROW(SampledDistance{bad}, UserError);
   bad = good;
-  bad.samples[17] = std::nan("");
+  samples = good.samples.copy();
+  samples[17] = std::nan("");
+  bad.samples = samples;
   EXPECT_THROW(SampledDistance{bad}, UserError);
   bad = good;
   bad.table[0] = 1 << 20;
