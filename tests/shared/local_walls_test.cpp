@@ -166,7 +166,17 @@ TEST(LocalWalls, of_exact_shapes_are_exact_everywhere) {
   });
 }
 
-// A floor with bumps higher than wide for the spacing, among which a search may not end.
+// In a box of 6.
+SampledDistance samples_of(const SignedDistance& shape, bool cut) {
+  return sample_shape(shape, {.lower = Vec3::Constant(-3),
+                              .upper = Vec3::Constant(3),
+                              .spacing = spacing,
+                              .band = 2.0,
+                              .cut = cut,
+                              .interpolation = Interpolation::quadratic});
+}
+
+// A floor with steep bumps, few spacings wide, among which a search may not end.
 class RoughFloor : public SignedDistance {
  public:
   double distance(const Vec3& x) const override { return sample(x).distance; }
@@ -183,13 +193,7 @@ class RoughFloor : public SignedDistance {
 
 // Of a search that was given up the wall says so; the others have led to a foot.
 TEST(LocalWalls, say_whether_the_nearest_place_was_found) {
-  const SampledDistance field(
-      sample_shape(RoughFloor(), {.lower = Vec3::Constant(-3),
-                                  .upper = Vec3::Constant(3),
-                                  .spacing = spacing,
-                                  .band = 2.0,
-                                  .cut = true,
-                                  .interpolation = Interpolation::quadratic}));
+  const SampledDistance field = samples_of(RoughFloor(), true);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(-1.0, 1.0);
   int found = 0, given_up = 0;
@@ -220,13 +224,7 @@ TEST(LocalWalls, are_never_lost_in_a_hole_as_wide_as_the_ball) {
   const Vec3 axis = Vec3(1, 2, 3).normalized(), across = axis.unitOrthogonal();
   const Shape ring =
       make_shape(Torus{.center = Vec3::Zero(), .axis = axis, .radius = 1.8, .tube_radius = 0.8});
-  const Shape field = std::make_shared<const SampledDistance>(
-      sample_shape(*ring, {.lower = Vec3::Constant(-3),
-                           .upper = Vec3::Constant(3),
-                           .spacing = spacing,
-                           .band = 2.0,
-                           .cut = false,
-                           .interpolation = Interpolation::quadratic}));
+  const SampledDistance field = samples_of(*ring, false);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(-1.0, 1.0);
   int unsure = 0;
@@ -235,7 +233,7 @@ TEST(LocalWalls, are_never_lost_in_a_hole_as_wide_as_the_ball) {
                    0.2 * share(random) * axis;
     if (ring->distance(x) > 0.995 * radius) continue;
     LocalWalls walls;
-    walls.come_to(*field, x, radius);
+    walls.come_to(field, x, radius);
     ASSERT_GE(walls.count(), 1);
     double nearest = 10.0;
     for (int w = 0; w < walls.count(); ++w) {
